@@ -410,6 +410,14 @@ impl Ruler {
         off / (length + right.intersection(is_square).sqrt())
     }
 
+    /// About how far its sides may be apart, in the unit of the problem, for it to count as met.
+    pub fn within(&self, right: Interval) -> f64 {
+        match self.is_square {
+            true => 2.0 * self.epsilon * right.mid().max(0.0).sqrt(),
+            false => self.epsilon * self.scale,
+        }
+    }
+
     /// What is known of it there.
     pub fn verdict(&self, off: Interval, right: Interval) -> Verdict {
         Verdict::of(self.miss(off, right), self.epsilon)

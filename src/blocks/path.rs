@@ -233,6 +233,7 @@ fn homotopy(
         equations,
         followed: Vec::new(),
         segments: Vec::new(),
+        beside: Vec::new(),
     }))
 }
 

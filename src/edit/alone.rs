@@ -1,7 +1,7 @@
 //! Where all dimensions together cannot be met from a sketch: each of them alone, with the others met.
 
 use super::setting::Setting;
-use super::{Edited, Ending, Session};
+use super::{Edited, Ending, Keep, Session};
 use crate::interval::Interval;
 use crate::order::InOrder;
 use crate::places::Each as _;
@@ -60,7 +60,7 @@ pub fn alone(problem: &Problem, options: &Options, control: &mut Control) -> Vec
         let Ok(mut session) = Session::open_with(&others, options, control) else {
             continue;
         };
-        let edited = session.follow_to(slice::from_ref(&wanted), false, control);
+        let edited = session.follow_to(slice::from_ref(&wanted), Keep::Never, control);
         let one = Alone {
             problem: others,
             edited,
@@ -70,15 +70,7 @@ pub fn alone(problem: &Problem, options: &Options, control: &mut Control) -> Vec
             Ending::Reached if one.edited.account.is_whole() => return vec![one],
             // What is just met at its limit is not out of reach; nor is it told by figures that miss what was left out.
             Ending::Limit(_) if meet(dimension.value, dimension.to) => {}
-            Ending::Limit(_)
-                if one.edited.account.meets_all()
-                    || session
-                        .on_the_way(slice::from_ref(&wanted), one.edited.t.0, control)
-                        .1
-                        .is_none() =>
-            {
-                found.push(one);
-            }
+            Ending::Limit(_) if one.edited.astray.is_none() => found.push(one),
             _ => {}
         }
     }

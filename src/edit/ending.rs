@@ -95,8 +95,43 @@ pub struct Edited {
     /// Where the old figure was singular itself, so that no continuation is the one: what was so about it, and how far it was moved
     /// off that place before it was led to the new dimensions.
     pub singular: Option<Singular>,
+    /// Where on the way a figure first misses a constraint that was left out, proved, although where the edit ended it is not known to be
+    /// missed.
+    pub astray: Option<Astray>,
     /// Wall-clock seconds.
     pub seconds: f64,
+}
+
+/// Whether a figure that is reached is taken for the session's.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Keep {
+    /// No.
+    Never,
+    /// Yes.
+    Always,
+    /// If no figure on the way there is known to miss a constraint.
+    OnTheWay,
+}
+
+impl Keep {
+    /// Whether it is, after such an edit.
+    pub fn is_taken(self, edited: &Edited) -> bool {
+        edited.ending == Ending::Reached
+            && match self {
+                Keep::Never => false,
+                Keep::Always => true,
+                Keep::OnTheWay => edited.astray.is_none(),
+            }
+    }
+}
+
+/// A place on the way from where on figures are none of the problem.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Astray {
+    /// Bounds on t there.
+    pub t: (f64, f64),
+    /// Which constraint is missed there, and by how much.
+    pub stop: Stop,
 }
 
 impl Ending {

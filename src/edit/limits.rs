@@ -1,21 +1,18 @@
 //! How far each dimension can go alone.
 
-use super::ending::{Edited, Ending, Limit};
+use super::ending::{Astray, Edited, Ending, Keep, Limit};
 use super::setting::measure;
 use super::{Session, Setting};
 use crate::blocks::Account;
 use crate::constraint::Measure;
-use crate::interval::Interval;
+use crate::interval::{Interval, hull};
 use crate::problem::{Decimal, Target};
 use crate::remarks::detour;
-use crate::track::{Control, Stop, StopKind};
+use crate::track::{Control, StopKind};
 use std::slice;
 
 /// Towards zero a dimension is followed down to this part of what it is.
 const SMALLEST: f64 = 1.0 / 1024.0;
-
-/// Where constraints were left out, so many figures on the way to each end are looked at as well.
-pub const BETWEEN: u32 = 7;
 
 /// Where a dimension's range ends on one side.
 #[derive(Debug, Clone, PartialEq)]
@@ -46,16 +43,6 @@ pub struct Range {
     pub high_figure: Vec<[Interval; 3]>,
     /// What both ends are proved of.
     pub account: Account,
-}
-
-/// A way that ends at a figure before the one it leads to.
-pub(super) struct Short {
-    /// t there.
-    pub t: f64,
-    /// The values of the dimensions that are led.
-    pub values: Vec<Interval>,
-    /// Why it goes no further.
-    pub stop: Stop,
 }
 
 impl End {
@@ -121,46 +108,6 @@ impl Session {
             .collect()
     }
 
-    /// Figures on the way to the one at t, which has constraints left out that need not follow: what is proved of them, and, where
-    /// one of them misses such a constraint or is not proved, the one before it, where the way ends.
-    pub(super) fn on_the_way(
-        &mut self,
-        settings: &[Setting],
-        t: f64,
-        control: &mut Control,
-    ) -> (Account, Option<Short>) {
-        let mut account = self.account();
-        let mut short = Short {
-            t: 0.0,
-            values: settings.iter().map(|s| self.length(s.index)).collect(),
-            stop: Stop::new(
-                StopKind::Undecided,
-                "the way there could not be followed a second time",
-            ),
-        };
-        for k in 1..=BETWEEN {
-            let part = t * f64::from(k) / f64::from(BETWEEN + 1);
-            let there = settings.iter().map(|s| s.before(self.problem(), part));
-            let there: Option<Vec<Setting>> = there.collect();
-            let edited = there.map(|there| self.follow_to(&there, false, control));
-            match edited {
-                Some(edited) if edited.ending == Ending::Reached => {
-                    account.join(&edited.account);
-                    short.t = part;
-                    short.values = edited.dimensions.iter().map(|d| d.value).collect();
-                    continue;
-                }
-                Some(Edited {
-                    ending: Ending::Stopped(stop) | Ending::Passes(stop),
-                    ..
-                }) => short.stop = stop,
-                _ => {}
-            }
-            return (account, Some(short));
-        }
-        (account, None)
-    }
-
     /// How far a dimension can go towards a value, and the figure there.
     fn end(
         &mut self,
@@ -193,27 +140,22 @@ impl Session {
         };
         let Edited {
             ending,
-            t,
+            astray,
             dimensions,
             points,
             account,
             ..
-        } = self.follow_to(slice::from_ref(&setting), false, control);
+        } = self.follow_to(slice::from_ref(&setting), Keep::Never, control);
         let is_contradicted =
             matches!(&ending, Ending::Stopped(stop) if stop.kind == StopKind::Contradiction);
         // What a figure misses that is none is not said of the old one, which is printed in its place.
-        let mut account = match is_contradicted {
+        let account = match is_contradicted {
             true => self.account(),
             false => account,
         };
-        if t.0 > 0.0 && !account.meets_all() {
-            let way = self.on_the_way(slice::from_ref(&setting), t.0, control);
-            let (between, short) = way;
-            if let Some(short) = short {
-                let end = End::Unknown(short.values[0], short.stop.text);
-                return (end, self.points(), between);
-            }
-            account.join(&between);
+        if let Some(Astray { t, stop }) = astray {
+            let value = setting.between(self.problem(), hull(t.0.max(0.0), t.1.min(1.0)));
+            return (End::Unknown(value, stop.text), self.points(), account);
         }
         let value = dimensions[0].value;
         let end = match ending {

@@ -54,8 +54,9 @@ mod within;
 mod write;
 
 pub use alone::{Alone, alone};
-pub use ending::{Dimension, Edited, Ending, Limit, Lost, Orientations};
-pub use limits::{BETWEEN, End, Range};
+use ending::Keep;
+pub use ending::{Astray, Dimension, Edited, Ending, Limit, Lost, Orientations};
+pub use limits::{End, Range};
 pub use open::{Moved, OpenError};
 pub(crate) use round::Round;
 pub use round::WayEnd;

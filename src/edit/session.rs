@@ -1,12 +1,12 @@
 //! A figure and the edits of it.
 
-use super::ending::{Edited, Ending, Orientations};
+use super::ending::{Astray, Edited, Ending, Keep, Orientations};
 use super::open::{Moved, OpenError};
 use super::parts::Parts;
 use super::setting::Setting;
 use super::whole::Whole;
 use crate::blocks::{Account, Singular};
-use crate::interval::Interval;
+use crate::interval::{Interval, hull};
 use crate::places::Each as _;
 use crate::problem::Problem;
 use crate::track::{Control, Options, StartError};
@@ -159,36 +159,39 @@ impl Session {
     pub fn edit_with(&mut self, settings: &[Setting], control: &mut Control) -> Edited {
         let edited = match &mut self.way {
             Way::Whole(whole) => whole.edit_with(settings, control),
-            Way::Parts(parts) => parts.edit(settings, true, control),
+            Way::Parts(parts) => parts.edit(settings, Keep::Always, control),
         };
-        self.looked_at(edited, settings, control)
+        self.looked_at(edited, settings, false)
     }
 
-    /// A limit, which is one of the figure only if the figures on the way there meet what was left out as well, as of `limits`: otherwise the
-    /// edit stops before.
-    fn looked_at(
-        &mut self,
-        mut edited: Edited,
-        settings: &[Setting],
-        control: &mut Control,
-    ) -> Edited {
-        if !matches!(edited.ending, Ending::Limit(_)) || edited.account.meets_all() {
-            return edited;
-        }
-        let (account, short) = self.on_the_way(settings, edited.t.0, control);
-        let Some(short) = short else {
-            edited.account.join(&account);
+    /// A way that goes on past a figure that misses what was left out ends there, where it leads to a limit, which is one of the figure
+    /// only if the figures on the way there are; and `if_reached`, where all of them are asked for.
+    fn looked_at(&self, edited: Edited, settings: &[Setting], if_reached: bool) -> Edited {
+        let is_asked = match edited.ending {
+            Ending::Limit(_) => true,
+            Ending::Reached => if_reached,
+            _ => false,
+        };
+        let Some(Astray { t, stop }) = edited.astray.clone() else {
             return edited;
         };
-        for (dimension, value) in edited.dimensions.iter_mut().zip(short.values) {
-            dimension.value = value;
+        if !is_asked {
+            let remark = format!("other figures on the way: at t = {:.6}, {stop}", t.1);
+            let mut edited = edited;
+            edited.switched_on.push(remark);
+            return edited;
+        }
+        let mut dimensions = edited.dimensions.clone();
+        let there = hull(t.0.max(0.0), t.1.min(1.0));
+        for (dimension, setting) in dimensions.iter_mut().zip(settings) {
+            dimension.value = setting.between(self.problem(), there);
         }
         Edited {
-            ending: Ending::Stopped(short.stop),
-            t: (short.t, short.t),
+            ending: Ending::Stopped(stop),
+            t,
+            dimensions,
             points: self.points(),
             orientations: Orientations::default(),
-            account,
             ..edited
         }
     }
@@ -196,8 +199,8 @@ impl Session {
     /// Changes dimensions by a path of figures and in no other way, as every claim of the one continuation needs it: [`Session::edit`] of a figure that is
     /// singular itself, which has none, goes to one that is near.
     pub fn lead(&mut self, settings: &[Setting], control: &mut Control) -> Edited {
-        let edited = self.follow_to(settings, true, control);
-        self.looked_at(edited, settings, control)
+        let edited = self.follow_to(settings, Keep::OnTheWay, control);
+        self.looked_at(edited, settings, true)
     }
 
     /// Changes dimensions by a path of figures, and where there is none, in no other way, unlike [`Session::edit`] at figures that are
@@ -205,13 +208,13 @@ impl Session {
     pub(super) fn follow_to(
         &mut self,
         settings: &[Setting],
-        keep: bool,
+        keep: Keep,
         control: &mut Control,
     ) -> Edited {
         match (&mut self.way, keep) {
-            (Way::Whole(whole), true) => whole.edit_with(settings, control),
-            (Way::Whole(whole), false) => whole.probe(settings, control),
             (Way::Parts(parts), _) => parts.follow_to(settings, keep, control),
+            (Way::Whole(whole), Keep::Never) => whole.probe(settings, control),
+            (Way::Whole(whole), _) => whole.edit_with(settings, control),
         }
     }
 
@@ -219,9 +222,9 @@ impl Session {
     pub fn probe(&mut self, settings: &[Setting], control: &mut Control) -> Edited {
         let edited = match &mut self.way {
             Way::Whole(whole) => whole.probe(settings, control),
-            Way::Parts(parts) => parts.edit(settings, false, control),
+            Way::Parts(parts) => parts.edit(settings, Keep::Never, control),
         };
-        self.looked_at(edited, settings, control)
+        self.looked_at(edited, settings, false)
     }
 }
 

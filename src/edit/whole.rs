@@ -363,6 +363,7 @@ impl Whole {
             switched_on: run.switched_on,
             account: self.scope(),
             singular: None,
+            astray: None,
             seconds: 0.0,
         };
         (edited, figure)

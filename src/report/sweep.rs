@@ -4,7 +4,7 @@ use super::certain_digits;
 use super::drawing::{Drawing, names};
 use super::edit::{bounds, edit_in_words, edit_to_value, limit_in_words, points_to_value, short};
 use super::measured::Measures;
-use crate::edit::{BETWEEN, Edited, End, Ending, Moved, Range, Sweep};
+use crate::edit::{Edited, End, Ending, Moved, Range, Sweep};
 use crate::interval::Interval;
 use crate::places::{Each as _, array};
 use crate::problem::Problem;
@@ -73,9 +73,7 @@ fn write_ranges(
     let left_out = account.map_or(String::new(), |account| match account.left_out_in_words() {
         words if words.is_empty() => words,
         words if account.meets_all() => format!(" At all these figures {words}."),
-        words => {
-            format!(" At all these figures, and at up to {BETWEEN} on the way to each, {words}.")
-        }
+        words => format!(" At all these figures, and everywhere on the way to each, {words}."),
     });
     let loose = match account.is_none_or(|account| account.held.is_empty()) {
         true => "",

@@ -1,7 +1,7 @@
 //! H(X, t), as the trackers see it.
 
-use super::{ExactLength, Gauge, GaugeError, Length, Right, Segment};
-use crate::constraint::{self, Entry, Role, Tail};
+use super::{Beside, ExactLength, Gauge, GaugeError, Length, Right, Segment};
+use crate::constraint::{self, Entry, Equation, Role, Tail};
 use crate::equations::{Form, Product};
 use crate::interval::{Interval, ZERO, enclose, enclose_rational, point};
 use crate::places::{Each as _, array};
@@ -65,6 +65,8 @@ pub struct Homotopy {
     pub followed: Vec<Vec<usize>>,
     /// Lines and arcs that are followed along arcs of path, as they must not shrink to nothing and come out turned round.
     pub segments: Vec<Segment>,
+    /// Equations that are not among these, of which is looked how far the figures along arcs are off them.
+    pub beside: Vec<Beside>,
 }
 
 impl Homotopy {
@@ -204,6 +206,7 @@ impl Homotopy {
             followed: Vec::new(),
             spare: Vec::new(),
             segments: Vec::new(),
+            beside: Vec::new(),
             shapes: problem.objects.iter().map(|o| o.shape.clone()).collect(),
             gauge,
             tail,
@@ -260,6 +263,7 @@ impl Homotopy {
             followed: Vec::new(),
             spare: Vec::new(),
             segments: Vec::new(),
+            beside: Vec::new(),
             shapes: Vec::new(),
             gauge,
             tail,
@@ -320,18 +324,10 @@ impl Homotopy {
 
     fn add_constraints(&mut self) {
         for equation in &self.tail.equations {
-            let terms = equation.products.iter().map(|product| {
-                assert!(
-                    (1..=1000).contains(&product.factor.abs()),
-                    "factors are small whole numbers"
-                );
-                product.map(|entry| self.entry(entry))
-            });
-            let terms: Vec<Term> = terms.collect();
+            let (terms, right) = self.terms_of(equation);
             assert!(!terms.is_empty(), "an equation has a left-hand side");
             self.terms.push(terms);
-            let unit = self.unit.powi(equation.power);
-            self.rights.push(Right::polynomial(&equation.right, unit));
+            self.rights.push(right);
             self.names.push(equation.name.clone());
         }
         for unknown in &self.tail.unknowns {
@@ -339,6 +335,19 @@ impl Homotopy {
             let unit = point(1.0 / self.unit.powi(unknown.power));
             self.auxiliary.push(unknown.sketch * unit);
         }
+    }
+
+    /// Twice the left-hand side of an equation in these unknowns, and its right-hand side.
+    pub(super) fn terms_of(&self, equation: &Equation) -> (Vec<Term>, Right) {
+        let terms = equation.products.iter().map(|product| {
+            assert!(
+                (1..=1000).contains(&product.factor.abs()),
+                "factors are small whole numbers"
+            );
+            product.map(|entry| self.entry(entry))
+        });
+        let unit = self.unit.powi(equation.power);
+        (terms.collect(), Right::polynomial(&equation.right, unit))
     }
 
     /// The unknown that an entry is, or `None` if it is zero.

@@ -27,7 +27,7 @@ pub(crate) use homotopy::typical_length;
 pub use homotopy::{Edge, Homotopy, Term};
 pub use interpolation::Length;
 pub use located::Located;
-pub use part::Part;
+pub use part::{Beside, Part};
 pub use quantity::{Quantity, WHOLE_TURN};
 pub use right::Right;
 pub use segment::{Extent, Segment};

@@ -1,6 +1,6 @@
 //! A homotopy made of equations and unknowns directly: a part of a problem's, or its with some unknowns made one.
 
-use super::{Gauge, Homotopy, Segment};
+use super::{Gauge, Homotopy, Right, Segment, Term};
 use crate::constraint::{Equation, Nonzero, Tail, Unknown};
 
 /// Equations in unknowns that are all listed; [`crate::constraint::Entry::Unknown`] is an index into them.
@@ -22,6 +22,19 @@ pub struct Part {
     pub followed: Vec<Vec<usize>>,
     /// Lines and arcs that are followed, as they must not vanish.
     pub segments: Vec<Segment>,
+    /// Equations that were left out, and within how much each is met.
+    pub beside: Vec<(Equation, f64)>,
+}
+
+/// An equation that is not one of a homotopy's own, of which is looked how far figures are off it.
+#[derive(Debug, Clone)]
+pub struct Beside {
+    /// Twice its left-hand side.
+    pub terms: Vec<Term>,
+    /// Its right-hand side.
+    pub right: Right,
+    /// It is met where it is off by no more than this.
+    pub within: f64,
 }
 
 impl Homotopy {
@@ -50,6 +63,15 @@ impl Homotopy {
         let mut homotopy = Homotopy::without_distances(gauge, part.unit, tail);
         homotopy.followed = part.followed;
         homotopy.segments = part.segments;
+        let beside = part.beside.into_iter().map(|(equation, within)| {
+            let (terms, right) = homotopy.terms_of(&equation);
+            Beside {
+                terms,
+                right,
+                within,
+            }
+        });
+        homotopy.beside = beside.collect();
         homotopy
     }
 }

@@ -105,6 +105,38 @@ pub struct Kept {
     pub lost: Option<(f64, f64)>,
 }
 
+/// How far the figures of an arc are off an equation that is not one of its own, in the homotopy's unit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Off {
+    /// By what its left-hand side is more than its right-hand side: an enclosure for all figures up to there where it is missed. Empty of
+    /// none.
+    pub met: Interval,
+    /// Where it is first proved to be off by more than [`Beside::within`](crate::system::Beside::within): by what there, and a range of t.
+    pub missed: Option<(Interval, (f64, f64))>,
+}
+
+impl Default for Off {
+    fn default() -> Self {
+        Off {
+            met: Interval::EMPTY,
+            missed: None,
+        }
+    }
+}
+
+impl Off {
+    /// Notes what it is off by on a piece of the way, the next one.
+    pub fn take(&mut self, off: Interval, within: f64, t: (f64, f64)) {
+        if self.missed.is_some() {
+            return;
+        }
+        match off.mig() > within {
+            true => self.missed = Some((off, t)),
+            false => self.met = self.met.convex_hull(off),
+        }
+    }
+}
+
 /// The account of an arc.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ArcRun {
@@ -116,6 +148,8 @@ pub struct ArcRun {
     pub orientations: Vec<Orientation>,
     /// Lines and arcs that must not vanish, in the same order each time.
     pub segments: Vec<Kept>,
+    /// How far its figures are off each of [`Homotopy::beside`].
+    pub beside: Vec<Off>,
     /// Where it reached t = 1: within this distance of the figure's middle, in every entry, there is no other
     /// zero of F(X, a(1)). Otherwise 0.
     pub alone_within: f64,
@@ -139,6 +173,7 @@ impl ArcRun {
             t: (0.0, 0.0),
             orientations: Vec::new(),
             segments: Vec::new(),
+            beside: Vec::new(),
             alone_within: 0.0,
             last: Vec::new(),
             steps: 0,

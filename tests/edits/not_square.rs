@@ -1,8 +1,10 @@
 //! Problem files with more constraints than unknowns, or fewer, and dimensions that are out of reach: what `solve` and `limits` say.
 
 use assert_cmd::Command;
+use krawl::blocks::Verdict;
 use krawl::edit::{End, Ending, Session, Setting};
 use krawl::problem::Problem;
+use krawl::track::Control;
 use std::fs;
 
 /// What a verb prints of a problem, and its exit code.
@@ -197,7 +199,7 @@ distances = [["O", "B", 5], ["B", "P", 5], ["Q", "P", 3.1622776601683795]]
     let (text, _) = run("limits", text, &["--json", "-"]);
     let result: serde_json::Value = serde_json::from_str(&text).unwrap();
     let low = result["ranges"]["x:P"]["low"].to_string();
-    assert!(low.contains("contradicts"), "{low}");
+    assert!(low.contains("miss `Q-P`"), "{low}");
 }
 
 /// What is not out of reach is not said to be: a dimension just met at its limit; one that can be met with other coordinates held is no figure of
@@ -274,4 +276,83 @@ fn no_limit_is_reached_through_figures_that_miss_what_was_left_out() {
     };
     assert!(stop.text.contains("p-q"), "{}", stop.text);
     assert!(edited.t.1 < limit.t.0 && edited.points == session.points());
+}
+
+/// P at x = 3 and at x = −3 is 5 from (0, 4), and between them nearer: an edit from one to the other reaches its figure and says so, a
+/// sweep stops where it sets out, and no range goes through it.
+#[test]
+fn what_is_met_at_both_ends_is_looked_at_on_the_way() {
+    // Driven by its coordinate, which is known exactly all the way, and by a length, which is followed.
+    let drives = [
+        ("x = [[\"P\", 3]]", "", "x:P", [3, -3]),
+        ("", "[\"P\", \"A\", 13], ", "P-A", [13, 7]),
+    ];
+    for (x, more, name, [from, to]) in drives {
+        let text = format!(
+            "name = \"f\"\ndimension = 2\n[points]\nP = [3, 0]\nA = [-10, 0]\nQ = [0, 4]\n[constraints]\nfixed = [\"A\", \"Q\"]\n{x}\n\
+             distances = [{more}[\"P\", \"Q\", 5]]\ny = [[\"P\", 0]]\n"
+        );
+        let set = format!("{name}={to}");
+        let (said, code) = run("edit", &text, &["--set", &set]);
+        assert_eq!(code, 0, "{said}");
+        assert!(said.contains("other figures on the way"), "{said}");
+        assert!(said.contains("miss `P-Q`"), "{said}");
+        assert!(said.contains("`P-Q` was left out and is met"), "{said}");
+        let [from, to] = [from, to].map(|x: i32| x.to_string());
+        let all = [
+            "--vary", name, "--from", &from, "--to", &to, "--frames", "2",
+        ];
+        let (said, code) = run("sweep", &text, &all);
+        assert_eq!(code, 1, "{said}");
+        assert!(said.contains("miss `P-Q`"), "{said}");
+        let problem = Problem::parse_loosely(&text, "f.toml").unwrap();
+        let mut session = Session::open(&problem).unwrap();
+        let setting = Setting::parse(&problem, &set).unwrap();
+        let range = session.range(setting.index, &mut Control::default());
+        // |P − Q| is 5 + 0.6 (x − 3) near x = 3, and what counts as met is the ten-millionth part of about 10.
+        for (end, sign) in [(&range.low, -1.0), (&range.high, 1.0)] {
+            let End::Unknown(value, _) = end else {
+                panic!("{end:?}")
+            };
+            let beyond = sign * (value.mid() - range.value.mid());
+            assert!((1e-8..1e-5).contains(&beyond), "{value:?}");
+        }
+    }
+}
+
+/// What is left out of Bennett's loop follows from the rest on its own branch of figures alone, where no identity tells it: that it is met is
+/// enclosed all along the way from one limit to the other.
+#[test]
+fn what_was_left_out_of_a_bennett_loop_is_met_everywhere_between_its_limits() {
+    let text = fs::read_to_string("tests/data/bennett.toml").unwrap();
+    let problem = Problem::parse_loosely(&text, "bennett.toml").unwrap();
+    let mut session = Session::open(&problem).unwrap();
+    let setting = Setting::parse(&problem, "P1-P3=1").unwrap();
+    let range = session.range(setting.index, &mut Control::default());
+    for (end, wanted) in [(&range.low, 0.5), (&range.high, 2.5)] {
+        let End::Limit(value, _) = end else {
+            panic!("{end:?}")
+        };
+        assert!((value.mid() - wanted).abs() < 1e-9, "{value:?}");
+    }
+    assert!(!range.account.left_out.is_empty() && !range.account.meets_all());
+    for one in &range.account.left_out {
+        let Verdict::Met { within } = one.verdict else {
+            panic!("{one:?}")
+        };
+        // Of tubes, not of single figures.
+        assert!(within > 1e-10 && within < 2e-7, "{one:?}");
+    }
+    let mut frames = session.sweep(
+        setting.index,
+        (&"0.51".parse().unwrap(), &"2.49".parse().unwrap()),
+        20,
+        &mut Control::default(),
+    );
+    assert!(frames.end.is_none() && frames.frames.len() == 20);
+    frames
+        .account
+        .left_out
+        .retain(|one| !matches!(one.verdict, Verdict::Met { .. }));
+    assert!(frames.account.left_out.is_empty(), "{:?}", frames.account);
 }

@@ -12,7 +12,7 @@ use super::left_out::at_rest_all;
 use super::{End, Followers, MOST_TUBES, Parts};
 use crate::blocks::{Blocks, Choice, FINE, LAST, Used, is_exact, keep};
 use crate::constraint::try_lower_all;
-use crate::edit::ending::{Edited, Ending};
+use crate::edit::ending::{Edited, Ending, Keep};
 use crate::edit::setting::Setting;
 use crate::interval::{Real, point};
 use crate::track::{Control, StopKind};
@@ -33,11 +33,14 @@ impl Parts {
     pub(super) fn go_on(
         &mut self,
         settings: &[Setting],
-        keep: bool,
+        keep: Keep,
         first: Edited,
         control: &mut Control,
     ) -> Edited {
-        if self.free.is_empty() && self.redundant.is_empty() || !can_go_on(&first.ending) {
+        if self.free.is_empty() && self.redundant.is_empty()
+            || !can_go_on(&first.ending)
+            || first.astray.is_some()
+        {
             return first;
         }
         let mut ahead = self.clone();
@@ -59,7 +62,7 @@ impl Parts {
                     let between = settings.iter().map(|s| s.before(&ahead.problem, t));
                     let between: Vec<Setting> = between.collect::<Option<_>>()?;
                     let mut there = ahead.clone();
-                    let leg = there.continued(&between, true, control);
+                    let leg = there.continued(&between, Keep::Always, control);
                     let is_reached = leg.ending == Ending::Reached;
                     let moved = is_reached.then(|| there.choose_anew(settings, control))??;
                     Some((there, t, Some(leg), moved))
@@ -74,9 +77,15 @@ impl Parts {
                 break;
             };
             ahead = there;
+            let leg = leg.map(|mut leg| {
+                if let Some(astray) = &mut leg.astray {
+                    astray.t = along((done, done + t * (1.0 - done)), astray.t);
+                }
+                leg
+            });
             done += t * (1.0 - done);
             legs.extend(leg);
-            last = ahead.continued(settings, true, control);
+            last = ahead.continued(settings, Keep::Always, control);
             let reached = (done + last.t.0 * (1.0 - done)).min(1.0);
             let so_far = best.as_ref().unwrap_or(&first);
             if let Some(leg) = legs.last_mut() {
@@ -97,7 +106,7 @@ impl Parts {
             }
         }
         let Some(best) = best else { return first };
-        if keep && best.ending == Ending::Reached {
+        if keep.is_taken(&best) {
             *self = ahead;
         }
         best
@@ -180,11 +189,14 @@ impl Parts {
 
     /// Legs and what came of the last one, as one edit. `done`: how far on the way the last one began.
     fn joined(&self, first: &Edited, legs: &[Edited], (last, done): (&Edited, f64)) -> Edited {
-        let whole = |t: (f64, f64)| match t {
-            (1.0, 1.0) => (1.0, 1.0),
-            (low, high) => (done + low * (1.0 - done), done + high * (1.0 - done)),
-        };
+        let whole = |t| along((done, 1.0), t);
         let mut edited = last.clone();
+        if let Some(astray) = &mut edited.astray {
+            astray.t = whole(astray.t);
+        }
+        if let Some(astray) = legs.iter().find_map(|leg| leg.astray.clone()) {
+            edited.astray = Some(astray);
+        }
         edited.t = whole(last.t);
         for (dimension, before) in edited.dimensions.iter_mut().zip(&first.dimensions) {
             dimension.from = before.from;
@@ -208,6 +220,15 @@ impl Parts {
         }
         edited
     }
+}
+
+/// A range of t of a leg that is this part of the whole way.
+fn along((from, to): (f64, f64), t: (f64, f64)) -> (f64, f64) {
+    let place = |t: f64| match t {
+        1.0 => to,
+        t => from + t * (to - from),
+    };
+    (place(t.0), place(t.1))
 }
 
 /// Whether the equations that were chosen may be why an edit ended so.

@@ -2,13 +2,14 @@
 
 use super::{Known, Parts, Used};
 use crate::constraint::{Entry, Nonzero};
-use crate::equations::Form;
+use crate::equations::{Form, Ring};
 use crate::interval::{Interval, Real, hull, point};
 use crate::places::array;
 use crate::system::{Extent, Segment, orientation};
-use crate::track::arc::{Kept, Orientation};
+use crate::track::arc::{Kept, Off, Orientation};
 use crate::track::{Stop, StopKind};
 use std::collections::HashMap;
+use std::ops::{Add, Mul, Sub};
 
 impl Parts {
     /// The polynomials of moving unknowns that are known exactly.
@@ -218,6 +219,114 @@ impl Parts {
             });
         }
         out
+    }
+}
+
+impl Parts {
+    /// How far figures are off what is looked at and is about numbers that are known exactly alone. (Others are in a part that is followed.)
+    pub(super) fn exact_besides(
+        &self,
+        (exact, rights): (&HashMap<usize, Vec<Real>>, &[Vec<Real>]),
+        upto: Interval,
+    ) -> Vec<(usize, Off)> {
+        let paths = self.paths(exact);
+        let is_exact = |u: usize| self.is_exact[self.blocks.of_unknown[u]];
+        let looked_at = self.looked_at.iter().copied();
+        let alone = looked_at.filter(|&k| self.unknowns_of(k).all(is_exact));
+        let off = alone.map(|k| {
+            let row = &self.system.rows[self.redundant[k]];
+            let at = |entry: Option<usize>| match entry {
+                None => Polynomial::default(),
+                Some(u) => Polynomial(match paths.get(&u) {
+                    Some(path) => path.clone(),
+                    None => vec![self.figure[u].enclosure()],
+                }),
+            };
+            let left = row.products.iter().map(|p| {
+                let half = Polynomial(vec![point(0.5 * f64::from(p.factor))]);
+                half * p.value(at)
+            });
+            let left = left.fold(Polynomial::default(), |sum, term| sum + term);
+            let off = left - Polynomial(enclosed(&rights[row.index], self.scale(row.index)));
+            let (within, mut found) = (self.within(k, rights), Off::default());
+            let off = |time: Interval| value_at(&off.0, time);
+            take_along(&mut found, (0.0, upto.sup()), DEEP, within, &off);
+            (k, found)
+        });
+        off.collect()
+    }
+}
+
+/// Notes what figures are off by for a range of times, in pieces as short as it takes to tell whether they are met.
+fn take_along(
+    found: &mut Off,
+    (from, to): (f64, f64),
+    depth: u32,
+    within: f64,
+    off: &impl Fn(Interval) -> Interval,
+) {
+    let there = off(hull(from, to));
+    let half = 0.5 * (from + to);
+    let is_told = there.mag() <= within || there.mig() > within;
+    // Where roundings are what is left nothing is told by halving.
+    let is_rounding = there.wid() <= 1.5 * off(point(half)).wid();
+    if is_told || is_rounding || depth == 0 || !(from < half && half < to) {
+        found.take(there, within, (from, to));
+        return;
+    }
+    take_along(found, (from, half), depth - 1, within, off);
+    take_along(found, (half, to), depth - 1, within, off);
+}
+
+/// A polynomial in t by enclosures of its coefficients, that of t⁰ first.
+#[derive(Debug, Clone, Default)]
+struct Polynomial(Vec<Interval>);
+
+impl Polynomial {
+    /// The sum with a multiple of another one, which is 1 or −1 times it.
+    fn plus(mut self, other: Self, sign: f64) -> Self {
+        let longer = self.0.len().max(other.0.len());
+        self.0.resize(longer, point(0.0));
+        for (own, other) in self.0.iter_mut().zip(other.0) {
+            *own += point(sign) * other;
+        }
+        self
+    }
+}
+
+impl Ring for Polynomial {
+    fn whole(number: i32) -> Self {
+        Polynomial(vec![point(number.into())])
+    }
+}
+
+impl Add for Polynomial {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        self.plus(other, 1.0)
+    }
+}
+
+impl Sub for Polynomial {
+    type Output = Self;
+
+    fn sub(self, other: Self) -> Self {
+        self.plus(other, -1.0)
+    }
+}
+
+impl Mul for Polynomial {
+    type Output = Self;
+
+    fn mul(self, other: Self) -> Self {
+        let mut out = vec![point(0.0); (self.0.len() + other.0.len()).saturating_sub(1)];
+        for (i, a) in self.0.iter().enumerate() {
+            for (k, b) in other.0.iter().enumerate() {
+                out[i + k] += *a * *b;
+            }
+        }
+        Polynomial(out)
     }
 }
 

@@ -15,6 +15,8 @@ use std::sync::atomic::Ordering;
 /// What became of one part.
 struct PartRun {
     unknowns: Vec<usize>,
+    /// What was looked at along it, by place.
+    beside: Vec<usize>,
     run: ArcRun,
 }
 
@@ -35,15 +37,7 @@ impl Parts {
 
     /// Follows all that moves from t = 0 to t = 1.
     pub(super) fn follow(&mut self, rights: &[Vec<Real>], control: &mut Control) -> Run {
-        let count = self.blocks.blocks.len();
-        let mut moving = vec![false; count];
-        for (b, block) in self.blocks.blocks.iter().enumerate() {
-            moving[b] = block.needs.iter().any(|&need| moving[need])
-                || block.equations.iter().any(|&e| match self.used[e] {
-                    Used::Row(row) => moves(&rights[self.system.rows[row].index]),
-                    Used::Held(_) => false,
-                });
-        }
+        let moving = self.moving(rights);
         let exact = self.exact_polynomials(rights, &moving);
         let groups = self.groups(&moving);
         let mut runs = Vec::new();
@@ -73,7 +67,20 @@ impl Parts {
             .filter(|&k| !matches!(runs[k].run.end, ArcEnd::Reached(_)))
             .min_by(|&a, &b| runs[a].run.t.0.total_cmp(&runs[b].run.t.0));
         let t = worst.map_or((1.0, 1.0), |k| runs[k].run.t);
-        self.combine(runs, worst, &exact, t)
+        self.combine(runs, worst, (&exact, rights), t)
+    }
+
+    /// Which blocks move.
+    pub(super) fn moving(&self, rights: &[Vec<Real>]) -> Vec<bool> {
+        let mut moving = vec![false; self.blocks.blocks.len()];
+        for (b, block) in self.blocks.blocks.iter().enumerate() {
+            moving[b] = block.needs.iter().any(|&need| moving[need])
+                || block.equations.iter().any(|&e| match self.used[e] {
+                    Used::Row(row) => moves(&rights[self.system.rows[row].index]),
+                    Used::Held(_) => false,
+                });
+        }
+        moving
     }
 
     /// The moving blocks that have to be followed, in groups that have nothing in common but numbers known exactly.
@@ -157,22 +164,22 @@ impl Parts {
                 unknowns.len()
             );
             let run = ArcRun::stopped(Stop::new(StopKind::Refused, reason));
-            return PartRun { unknowns, run };
+            return PartRun {
+                unknowns,
+                beside: Vec::new(),
+                run,
+            };
         }
-        let polynomials: Vec<Vec<Real>> = used
-            .iter()
-            .map(|&used| self.rights_of(used, rights))
-            .collect();
         let mut follower = match self.ready.0.remove(&blocks) {
             Some(mut follower) => {
                 let homotopy = follower.homotopy_mut();
-                for (k, polynomial) in polynomials.iter().enumerate() {
-                    let scale = self.unit.powi(self.power_of(used[k]));
-                    homotopy.rights[k] = Right::polynomial(polynomial, scale);
+                for (k, &used) in used.iter().enumerate() {
+                    let scale = self.unit.powi(self.power_of(used));
+                    homotopy.rights[k] = Right::polynomial(&self.rights_of(used, rights), scale);
                 }
                 follower
             }
-            None => arcs(self.homotopy(&unknowns, &used, polynomials), &self.options),
+            None => arcs(self.homotopy(&unknowns, &used, rights), &self.options),
         };
         let start = Figure {
             centre: unknowns.iter().map(|&u| self.figure[u].centre).collect(),
@@ -181,14 +188,18 @@ impl Parts {
         };
         let run = follower.follow(&start, control);
         self.ready.0.insert(blocks, follower);
-        PartRun { unknowns, run }
+        PartRun {
+            beside: self.looked_at_in(&unknowns).collect(),
+            unknowns,
+            run,
+        }
     }
 
-    fn homotopy(&self, unknowns: &[usize], used: &[Used], rights: Vec<Vec<Real>>) -> Homotopy {
+    fn homotopy(&self, unknowns: &[usize], used: &[Used], rights: &[Vec<Real>]) -> Homotopy {
         let local: HashMap<usize, usize> =
             unknowns.iter().enumerate().map(|(k, &u)| (u, k)).collect();
         let entry = |unknown: Option<usize>| Entry::from(unknown.map(|u| local[&u]));
-        let equations = used.iter().zip(rights).map(|(&used, right)| {
+        let equation = |used: Used| {
             let (name, products) = match used {
                 Used::Row(row) => {
                     let row = &self.system.rows[row];
@@ -206,9 +217,17 @@ impl Parts {
             Equation {
                 name,
                 products,
-                right,
+                right: self.rights_of(used, rights),
                 power: self.power_of(used),
             }
+        };
+        let equations = used.iter().map(|&used| equation(used));
+        let beside = self.looked_at_in(unknowns);
+        let beside = beside.map(|k| {
+            (
+                equation(Used::Row(self.redundant[k])),
+                self.within(k, rights),
+            )
         });
         let d = self.problem.dimension;
         let coordinates = self
@@ -249,6 +268,7 @@ impl Parts {
             equations: equations.collect(),
             followed: self.followed.iter().filter(is_here).cloned().collect(),
             segments: segments.cloned().collect(),
+            beside: beside.collect(),
             coordinates,
         });
         let names = self.problem.points.iter().map(|p| p.name.clone());
@@ -261,7 +281,7 @@ impl Parts {
         &self,
         runs: Vec<PartRun>,
         worst: Option<usize>,
-        exact: &HashMap<usize, Vec<Real>>,
+        (exact, rights): (&HashMap<usize, Vec<Real>>, &[Vec<Real>]),
         t: (f64, f64),
     ) -> Run {
         let upto = hull(t.0.min(0.0), t.1.min(1.0));
@@ -270,6 +290,7 @@ impl Parts {
             t,
             orientations: self.exact_orientations(exact, upto),
             segments: self.exact_segments(exact, upto),
+            beside: self.exact_besides((exact, rights), upto),
             tubes: runs.iter().map(|run| run.run.steps).sum(),
             rejected: runs.iter().map(|run| run.run.rejected).sum(),
             length: runs.iter().map(|run| run.run.length).sum(),
@@ -284,6 +305,9 @@ impl Parts {
             out.orientations
                 .extend(run.run.orientations.iter().cloned());
             out.segments.extend(run.run.segments.iter().cloned());
+            let beside = run.beside.iter().copied();
+            out.beside
+                .extend(beside.zip(run.run.beside.iter().copied()));
         }
         // Nothing is said of a piece of path beyond where all of it ends.
         for orientation in &mut out.orientations {
@@ -328,7 +352,7 @@ impl Parts {
         };
         let Some(worst) = worst else {
             let mut figure = at(point(1.0));
-            for PartRun { unknowns, run } in &runs {
+            for PartRun { unknowns, run, .. } in &runs {
                 if let ArcEnd::Reached(found) = &run.end {
                     put(&mut figure, unknowns, found);
                 }
@@ -336,7 +360,7 @@ impl Parts {
             out.end = End::Reached(figure);
             return out;
         };
-        let PartRun { unknowns, run } = &runs[worst];
+        let PartRun { unknowns, run, .. } = &runs[worst];
         out.end = match &run.end {
             ArcEnd::Limit(fold) => {
                 let Fold {

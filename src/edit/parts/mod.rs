@@ -12,13 +12,14 @@ mod exact;
 mod follow;
 mod left_out;
 mod off;
+mod on_the_way;
 pub(super) mod senses;
 mod standing;
 mod words;
 
 use crate::blocks::{Account, Blocks, Combination, Cut, Given, Singular, System, Used, Verdict};
 use crate::constraint::{Record, try_lower_all};
-use crate::edit::ending::{Dimension, Edited, Ending, Limit, Orientations};
+use crate::edit::ending::{Dimension, Edited, Ending, Keep, Limit, Orientations};
 use crate::edit::lowered;
 use crate::edit::open::{Moved, OpenError};
 use crate::edit::segments::{NARROWER, Reversed, first_lost, segments, stop};
@@ -27,7 +28,7 @@ use crate::interval::{Interval, Real, hull, point};
 use crate::places::array;
 use crate::problem::Problem;
 use crate::system::{Extent, Segment};
-use crate::track::arc::{Kept, Orientation};
+use crate::track::arc::{Kept, Off, Orientation};
 use crate::track::certified::FollowArcs;
 use crate::track::{Control, Options, StartError, Stop, StopKind};
 use left_out::at_rest_all;
@@ -114,6 +115,8 @@ pub(super) struct Parts {
     unit: f64,
     moved: Moved,
     ready: Followers,
+    /// Of what was left out, by place: what is looked at all along the way.
+    looked_at: Vec<usize>,
 }
 
 /// A path of the whole sketch.
@@ -122,6 +125,8 @@ struct Run {
     t: (f64, f64),
     orientations: Vec<Orientation>,
     segments: Vec<Kept>,
+    /// How far its figures are off what is looked at, by place.
+    beside: Vec<(usize, Off)>,
     tubes: usize,
     rejected: usize,
     length: f64,
@@ -237,6 +242,7 @@ impl Parts {
             unit,
             moved: Moved::default(),
             ready: Followers::default(),
+            looked_at: Vec::new(),
             blocks,
             system,
         };
@@ -329,7 +335,12 @@ impl Parts {
         });
         let vectors = self.system.nonzero.iter();
         let vectors = vectors.map(|vector| vector.unknowns(d).collect());
-        senses.chain(segments).chain(vectors).map(blocks).collect()
+        let rows = self
+            .looked_at
+            .iter()
+            .map(|&k| self.unknowns_of(k).collect());
+        let all = senses.chain(segments).chain(vectors).chain(rows);
+        all.map(blocks).collect()
     }
 
     pub fn problem(&self) -> &Problem {
@@ -378,13 +389,14 @@ impl Parts {
     }
 
     /// Follows the figure as its dimensions change.
-    fn continued(&mut self, settings: &[Setting], keep: bool, control: &mut Control) -> Edited {
+    fn continued(&mut self, settings: &[Setting], keep: Keep, control: &mut Control) -> Edited {
         let clock = Instant::now();
         let mut problem = self.problem.clone();
         for setting in settings {
             setting.apply(&mut problem);
         }
-        let (edited, figure) = match lowered(&problem, |problem| {
+        let mut astray = None;
+        let (edited, reached) = match lowered(&problem, |problem| {
             try_lower_all(problem, Some(&self.record))
         }) {
             Err(fault) => {
@@ -416,7 +428,12 @@ impl Parts {
                     End::Reached(reached) => self.vanished(reached),
                     _ => None,
                 });
-                let account = self.account_of(|k| verdicts[k]);
+                let way = self.look_on_the_way(&rights, &mut run, control);
+                let account = self.account_of(|k| match way.verdicts.get(&k) {
+                    Some(there) => verdicts[k].and(*there),
+                    None => verdicts[k],
+                });
+                astray = way.astray;
                 if let Some(what) = stop {
                     run.end = End::Stopped(what);
                     run.t = (0.0, 0.0);
@@ -426,7 +443,14 @@ impl Parts {
                 (self.edited(settings, run, account), figure)
             }
         };
-        if let (Some((figure, record, rights, verdicts)), true) = (figure, keep) {
+        let edited = Edited {
+            seconds: clock.elapsed().as_secs_f64(),
+            astray,
+            ..edited
+        };
+        if let Some((figure, record, rights, verdicts)) = reached
+            && keep.is_taken(&edited)
+        {
             (self.figure, self.record, self.problem) = (figure, record, problem);
             if let Some(plain) = &mut self.plain {
                 settings.iter().for_each(|setting| setting.apply(plain));
@@ -434,10 +458,7 @@ impl Parts {
             self.verdicts = verdicts;
             self.note_what_follows(&rights);
         }
-        Edited {
-            seconds: clock.elapsed().as_secs_f64(),
-            ..edited
-        }
+        edited
     }
 
     /// Ends a run where a line or arc shrinks to nothing.
@@ -530,6 +551,7 @@ impl Parts {
             switched_on: contacts.chain(run.switched_on).collect(),
             account,
             singular: None,
+            astray: None,
             seconds: 0.0,
         }
     }
@@ -558,6 +580,7 @@ fn stopped(reason: Stop) -> Run {
         t: (0.0, 0.0),
         orientations: Vec::new(),
         segments: Vec::new(),
+        beside: Vec::new(),
         tubes: 0,
         rejected: 0,
         length: 0.0,

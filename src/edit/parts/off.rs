@@ -2,7 +2,7 @@
 
 use super::Parts;
 use crate::blocks::Singular;
-use crate::edit::ending::{Dimension, Edited, Ending, Orientations};
+use crate::edit::ending::{Dimension, Edited, Ending, Keep, Orientations};
 use crate::edit::setting::Setting;
 use crate::places::Each as _;
 use crate::problem::Problem;
@@ -54,7 +54,7 @@ impl Parts {
     }
 
     /// Changes dimensions by a path, and where a figure that is singular itself has none, by a figure moved off that place.
-    pub fn edit(&mut self, settings: &[Setting], keep: bool, control: &mut Control) -> Edited {
+    pub fn edit(&mut self, settings: &[Setting], keep: Keep, control: &mut Control) -> Edited {
         let edited = self.follow_to(settings, keep, control);
         let is_contradiction = matches!(
             &edited.ending, Ending::Stopped(stop) if stop.kind == StopKind::Contradiction
@@ -66,8 +66,11 @@ impl Parts {
     }
 
     /// Changes dimensions by a path, and in no other way.
-    pub fn follow_to(&mut self, settings: &[Setting], keep: bool, control: &mut Control) -> Edited {
-        let edited = self.continued(settings, keep, control);
+    pub fn follow_to(&mut self, settings: &[Setting], keep: Keep, control: &mut Control) -> Edited {
+        let mut edited = self.continued(settings, keep, control);
+        if let Some(astray) = edited.astray.as_mut().filter(|_| self.is_singular()) {
+            astray.stop = self.sober(astray.stop.clone());
+        }
         match &edited.ending {
             Ending::Stopped(stop) if stop.kind == StopKind::Contradiction && self.is_singular() => {
                 let ending = Ending::Stopped(self.sober(stop.clone()));
@@ -114,7 +117,7 @@ impl Parts {
     fn moved_off(
         &mut self,
         settings: &[Setting],
-        keep: bool,
+        keep: Keep,
         control: &mut Control,
     ) -> Option<Edited> {
         let clock = Instant::now();
@@ -142,9 +145,10 @@ impl Parts {
             switched_on: Vec::new(),
             account: parts.scope(),
             singular: parts.singular.clone(),
+            astray: None,
             seconds: clock.elapsed().as_secs_f64(),
         };
-        if keep {
+        if keep.is_taken(&edited) {
             *self = parts;
         }
         Some(edited)

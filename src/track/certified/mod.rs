@@ -6,11 +6,13 @@
 //! `ledger` (what has been proved so far), `trace` (the path, kept to be drawn), `tracker` (the chain of
 //! tubes, in whichever space).
 
+mod beside;
 mod figures;
 mod fold;
 mod ledger;
 pub(in crate::track) mod link;
 mod orientation;
+mod piece;
 pub(in crate::track) mod proof;
 mod reasons;
 pub(in crate::track) mod shortfall;

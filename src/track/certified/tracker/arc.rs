@@ -3,6 +3,7 @@
 use super::{Test, Tracker};
 use crate::system::Homotopy;
 use crate::track::arc::{ArcEnd, ArcRun, Figure};
+use crate::track::certified::beside::Besides;
 use crate::track::certified::fold::{self, FoldProver};
 use crate::track::certified::ledger::Ledger;
 use crate::track::certified::link::{Frame, Tube};
@@ -21,6 +22,7 @@ pub(super) const LONGEST: f64 = 4.0;
 #[derive(Debug)]
 pub(super) struct Arc {
     orientations: Orientations,
+    beside: Besides,
     prover: FoldProver,
     /// Whether the equations are those of the real and imaginary parts of complex ones.
     is_complex: bool,
@@ -42,6 +44,7 @@ impl Arc {
     fn new(homotopy: &Homotopy, equations: &Equations) -> Self {
         Arc {
             orientations: Orientations::new(homotopy, &equations.vector()),
+            beside: Besides::new(homotopy, &equations.vector()),
             prover: FoldProver::new(equations),
             is_complex: false,
             end: None,
@@ -51,6 +54,7 @@ impl Arc {
     /// Sets out from a figure.
     pub fn begin(&mut self, start: &Figure) {
         self.orientations.begin(start);
+        self.beside.begin();
         self.end = None;
     }
 
@@ -88,7 +92,7 @@ impl Arc {
                 ledger.return_to(before);
                 return Err(Rejection::Undecided(Doubt::Time(time.undecided(from, to))));
             }
-            self.orientations.follow(tube, (from, tube.exit_at));
+            self.look_along(tube, (from, tube.exit_at));
             return Ok(false);
         };
         // It may be a little behind the exit.
@@ -98,7 +102,7 @@ impl Arc {
             return Err(Rejection::Undecided(Doubt::Time(time.undecided(from, at))));
         }
         self.end = Some(ArcEnd::Reached(figure_of(found)));
-        self.orientations.follow(tube, (from, at));
+        self.look_along(tube, (from, at));
         Ok(true)
     }
 
@@ -191,8 +195,14 @@ impl Arc {
             .pass(tube, (from, hi))
             .map_err(Rejection::Undecided)?;
         self.end = Some(ArcEnd::Limit(Box::new(found)));
-        self.orientations.follow(tube, (from, hi));
+        self.look_along(tube, (from, hi));
         Ok(true)
+    }
+
+    /// Notes what becomes, on a part of a tube that is proved, of all that is followed along the path.
+    fn look_along<const N: usize, Y: Frame>(&mut self, tube: &Tube<N, Y>, between: (f64, f64)) {
+        self.orientations.follow(tube, between);
+        self.beside.follow(tube, between);
     }
 }
 
@@ -311,6 +321,7 @@ impl<const N: usize, T: Test<N>> Arcs<N, T> {
             last: last[..tracker.equations.m].to_vec(),
             orientations: arc.orientations.account(),
             segments: arc.orientations.segments(),
+            beside: arc.beside.account(),
             end,
             steps,
             rejected: tracker.rejected,

@@ -1,0 +1,104 @@
+//! How far the figures of a path are off equations that are not among its own: those that were left out.
+
+use super::link::{Frame, Tube};
+use super::piece::{Along, Piece};
+use crate::equations::Ring as _;
+use crate::interval::{Interval, hull, point};
+use crate::linalg::Vector;
+use crate::system::{Beside, Homotopy};
+use crate::track::arc::Off;
+
+/// A tube is cut into at most 2 to this power pieces.
+const DEPTH: usize = 24;
+/// A piece is not cut where what is known of it is no more than so many times as wide as what is known of one figure.
+const NARROW: f64 = 1.5;
+
+/// The equations, and what is known of them so far.
+#[derive(Debug)]
+pub struct Besides {
+    all: Vec<(Beside, Off)>,
+    piece: Piece,
+}
+
+impl Besides {
+    /// Those of a homotopy.
+    pub fn new(homotopy: &Homotopy, spare: &Vector) -> Self {
+        let besides = homotopy.beside.iter().cloned();
+        Besides {
+            all: besides.map(|beside| (beside, Off::default())).collect(),
+            piece: Piece::new(spare),
+        }
+    }
+
+    /// Sets out again.
+    pub fn begin(&mut self) {
+        for (_, off) in &mut self.all {
+            *off = Off::default();
+        }
+    }
+
+    /// Follows them along a tube, between two parameters.
+    pub fn follow<const N: usize, Y: Frame>(&mut self, tube: &Tube<N, Y>, between: (f64, f64)) {
+        let all: Vec<usize> = (0..self.all.len()).collect();
+        self.cut(tube, between, DEPTH, &all);
+    }
+
+    /// Of some of them.
+    fn cut<const N: usize, Y: Frame>(
+        &mut self,
+        tube: &Tube<N, Y>,
+        (a, b): (f64, f64),
+        depth: usize,
+        of: &[usize],
+    ) {
+        if of.is_empty() {
+            return;
+        }
+        self.piece.look(tube, a, b);
+        let off = |besides: &Self, k: usize| besides.all[k].0.off(&besides.piece);
+        let found: Vec<(usize, Interval)> = of.iter().map(|&k| (k, off(self, k))).collect();
+        let half = 0.5 * (a + b);
+        let can_halve = depth > 0 && a < half && half < b;
+        if can_halve {
+            self.piece.look(tube, half, half);
+        }
+        let (rest, told): (Vec<_>, Vec<_>) = found.into_iter().partition(|&(k, there)| {
+            let within = self.all[k].0.within;
+            let is_told = there.mag() <= within || there.mig() > within;
+            can_halve && !is_told && there.wid() > NARROW * off(self, k).wid()
+        });
+        let t = tube.time().range(a, b);
+        for (k, there) in told {
+            let (beside, found) = &mut self.all[k];
+            found.take(there, beside.within, t);
+        }
+        let rest: Vec<usize> = rest.into_iter().map(|(k, _)| k).collect();
+        self.cut(tube, (a, half), depth.saturating_sub(1), &rest);
+        self.cut(tube, (half, b), depth.saturating_sub(1), &rest);
+    }
+
+    /// What is known of each.
+    pub fn account(&self) -> Vec<Off> {
+        self.all.iter().map(|(_, off)| *off).collect()
+    }
+}
+
+impl Beside {
+    /// Its left-hand side less its right-hand side on a piece of path.
+    fn off(&self, piece: &Piece) -> Interval {
+        let zero = || Along::whole(0);
+        let at = |entry: Option<usize>| entry.map_or_else(zero, |u| piece.at(u));
+        let left = self.terms.iter().fold(zero(), |sum, term| {
+            sum + Along::constant(0.5 * f64::from(term.factor), 0.0) * term.value(at)
+        });
+        let (t, right) = (piece.time(), &self.right);
+        let coefficients = right.e.iter().zip(&right.e_radius).rev();
+        let right = coefficients.fold(zero(), |sum, (&e, &radius)| {
+            sum * t + Along::constant(e, radius)
+        });
+        // A product goes through 12 roundings at most and a sum through 5.
+        let off = left - right;
+        let reach = off.reach(17 * (self.terms.len() + self.right.e.len() + 4));
+        point(off.value) + hull(-reach, reach)
+    }
+}
