@@ -18,6 +18,8 @@ use std::str::FromStr;
 pub struct Decimal {
     text: String,
     value: BigRational,
+    /// What it was computed by, if it was.
+    expression: Option<Box<str>>,
 }
 
 /// Why a text is not a decimal that krawl takes.
@@ -48,6 +50,19 @@ impl Decimal {
     /// The text it was read from.
     pub fn text(&self) -> &str {
         &self.text
+    }
+
+    /// The expression of parameters that it was computed by, if it was.
+    pub fn expression(&self) -> Option<&str> {
+        self.expression.as_deref()
+    }
+
+    /// The same number as that of an expression.
+    pub(crate) fn computed_by(self, expression: &str) -> Self {
+        Decimal {
+            expression: Some(expression.into()),
+            ..self
+        }
     }
 
     /// The exact value.
@@ -112,6 +127,7 @@ impl Decimal {
         Decimal {
             value: -self.value.clone(),
             text,
+            expression: None,
         }
     }
 }
@@ -180,7 +196,11 @@ impl FromStr for Decimal {
         } else {
             text.to_owned()
         };
-        Ok(Decimal { text, value })
+        Ok(Decimal {
+            text,
+            value,
+            expression: None,
+        })
     }
 }
 
@@ -201,6 +221,7 @@ impl From<i32> for Decimal {
         Decimal {
             text: value.to_string(),
             value: BigRational::from(BigInt::from(value)),
+            expression: None,
         }
     }
 }

@@ -26,17 +26,19 @@ pub struct Choice {
     pub free: Vec<usize>,
 }
 
+/// What shall rather be free than all others.
+pub(crate) const FREE_FIRST: u8 = 2;
 /// A row that is used after all others, whatever is new in them.
 pub(crate) const LAST: u8 = u8::MAX;
 
 impl Choice {
     /// Looks at a system where its unknowns have these values, coordinates and lengths in a unit in which the figure
-    /// is of size about 1. `later`: unknowns that shall rather be free than others. `first`: of rows in which as
+    /// is of size about 1. `later`: unknowns that shall rather be free than others, the more the higher the number, up to [`FREE_FIRST`]. `first`: of rows in which as
     /// much is new, up to `factor`, those with less of it are rather used than those with more, and of these the earlier.
     pub fn new(
         system: &System,
         at: &[f64],
-        later: impl Fn(usize) -> bool,
+        later: impl Fn(usize) -> u8,
         first: impl Fn(usize) -> u8,
         factor: f64,
     ) -> Self {
@@ -77,15 +79,15 @@ impl Choice {
                         entries[column] = 0.0;
                     }
                 }
-                let largest = |may_be_free: bool| {
-                    let columns = (0..width).filter(|&column| later(column) == may_be_free);
+                let largest = |rank: u8| {
+                    let columns = (0..width).filter(|&column| later(column) == rank);
                     let sizes = columns.map(|column| (entries[column].abs(), column));
                     sizes.fold((least, None), |best, (size, column)| match size > best.0 {
                         true => (size, Some(column)),
                         false => best,
                     })
                 };
-                let column = largest(false).1.or_else(|| largest(true).1);
+                let column = (0..=FREE_FIRST).find_map(|rank| largest(rank).1);
                 rows[row] = entries;
                 match column {
                     Some(column) => taken.push((row, column)),

@@ -168,7 +168,13 @@ impl Cut {
         let coordinates: BTreeSet<usize> = system.coordinates.iter().copied().collect();
         // What is fixed is left out last, dimensions after what has no number.
         let kept = |row: usize| keep(&problem, lowered.owners[system.rows[row].index]);
-        let mut choice = Choice::new(&system, &at, |u| coordinates.contains(&u), kept, COARSE);
+        let mut choice = Choice::new(
+            &system,
+            &at,
+            |u| coordinates.contains(&u).into(),
+            kept,
+            COARSE,
+        );
         let equations = &lowered.tail.equations;
         let rows = system.rows.iter();
         let structural = rows.map(|row| !owner_is_dimension(lowered.owners[row.index]));
@@ -180,7 +186,13 @@ impl Cut {
             let owner = |row: usize| lowered.owners[system.rows[row].index];
             let mut place = Singular::new(&problem, &system, &rows, owner);
             if let Some(off) = off {
-                choice = Choice::new(&system, &off, |u| coordinates.contains(&u), kept, COARSE);
+                choice = Choice::new(
+                    &system,
+                    &off,
+                    |u| coordinates.contains(&u).into(),
+                    kept,
+                    COARSE,
+                );
                 place.moved = Some(system.moved(&off, problem.dimension, unit));
                 drawn = Some(system.values.clone());
                 moved_rights = system.set_off(&off, unit, |index| equations[index].target());

@@ -117,7 +117,7 @@ pub(crate) fn look(
         return Drawn::Regular;
     }
     let rank = |at: &[f64]| {
-        Choice::new(floats.system, at, |_| false, |_| 0, FINE)
+        Choice::new(floats.system, at, |_| 0, |_| 0, FINE)
             .used
             .len()
     };

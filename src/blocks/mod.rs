@@ -37,7 +37,7 @@ mod surplus;
 pub(crate) use account::Ruler;
 pub use account::{Account, Held, LEAST_PART, LeftOut, Verdict, Why, rounded_down, rounded_up};
 pub use choose::Choice;
-pub(crate) use choose::{COARSE, FINE, LAST};
+pub(crate) use choose::{COARSE, FINE, FREE_FIRST, LAST};
 pub use clusters::{MOST_POINTS, clusters};
 pub use combine::{Choice as CombinedChoice, Combined};
 pub(crate) use cut::{

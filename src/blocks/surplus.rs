@@ -112,7 +112,7 @@ pub fn surplus(problem: &Problem) -> Result<Census, String> {
     let scale = |row: usize| unit.powi(equations[system.rows[row].index].power);
     let floats = Floats::new(&system, equations, unit);
     let mut at = system.sketch(unit);
-    let choice = Choice::new(&system, &at, |_| false, |_| 0, FINE);
+    let choice = Choice::new(&system, &at, |_| 0, |_| 0, FINE);
     if choice.redundant.is_empty() {
         return Ok(census(choice.used.len(), Vec::new()));
     }

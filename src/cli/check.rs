@@ -463,6 +463,12 @@ fn describe(
     let (blocks, census) = blocks.unzip();
     let mut rows = understood(problem);
     let (free, distances) = (problem.free_coordinates(), problem.distances.len());
+    for (name, value) in &problem.parameters {
+        let computed = value
+            .expression()
+            .map_or(String::new(), |by| format!(", as {by}"));
+        rows.push(("parameter", format!("{name} = {value}{computed}")));
+    }
     rows.push(("free coordinates", free.to_string()));
     if problem.is_distances_only() {
         rows.push((

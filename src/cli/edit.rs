@@ -7,7 +7,7 @@ use super::take::check_format;
 use super::verify::check_written;
 use super::{BAD_INPUT, CLOSED, LIMIT, PASSES, STOPPED, input, interrupt, serve};
 use krawl::certificate::Writer;
-use krawl::edit::{Asked, Decomposition, Edited, Ending, OpenError, Session, Setting};
+use krawl::edit::{Asked, Decomposition, Drag, Edited, Ending, OpenError, Session, Setting};
 use krawl::import::Format;
 use krawl::problem::Problem;
 use krawl::remarks::moves;
@@ -27,13 +27,14 @@ use std::path::{Path, PathBuf};
 Examples:
   krawl edit problems/mechanisms/four-bar.toml --set B-D=5.2
   krawl edit problems/mechanisms/four-bar.toml --set B-D=5.2 --out edited.toml
+  krawl edit docs/examples/arm.toml --drag C=40,30 --out dragged.toml
   krawl edit problems/mechanisms/four-bar.toml --set B-D=5.2 --cert edit.krawl
   krawl verify edit.krawl problems/mechanisms/four-bar.toml
   krawl edit problems/mechanisms/four-bar.toml --set B-D=5.2 --measure A-P --measure 'angle A B P'
   krawl edit problems/sketches/bracket.slvs --set c011=52 --out edited.slvs
 
 Exit codes: 0 reached: the figure printed is the one and only continuation; 3 limit: the dimensions can
-go so far and no further; 4 passes: branches of figures seem to meet; 1 stopped: nothing could be proved
+go so far and no further, or points that are dragged so near and no nearer; 4 passes: branches of figures seem to meet; 1 stopped: nothing could be proved
 from some point on; 2 bad input, or results that could not be written.")]
 pub struct Arguments {
     /// The problem file (TOML), or a sketch of SolveSpace (.slvs) or FreeCAD (.FCStd)
@@ -45,10 +46,14 @@ pub struct Arguments {
     #[arg(
         long,
         value_name = "NAME=VALUE",
-        required_unless_present = "serve",
+        required_unless_present_any = ["serve", "drag"],
         conflicts_with = "serve"
     )]
     set: Vec<String>,
+    /// A point and where it is wanted, such as P=40,25: all dimensions stay what they are, and the figure is led until the point is there, or as
+    /// near as it can; may be given for several points
+    #[arg(long, value_name = "P=X,Y", conflicts_with_all = ["serve", "set", "cert"], allow_hyphen_values = true)]
+    drag: Vec<String>,
     /// Read edits from standard input, one JSON object a line such as {"set": {"a-b": 5.2}}, and answer each with
     /// one line of JSON; the figure never changes by an edit that is not reached (docs/edit.md)
     #[arg(long, conflicts_with_all = ["out", "json", "time"])]
@@ -148,7 +153,12 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let as_turns = asked.in_words(&problem);
     let (settings, given) = (asked.settings, asked.given);
     problem = asked.problem;
-    Setting::check(&problem, &settings).map_err(|e| in_file(&e))?;
+    let drags = arguments.drag.iter();
+    let drags = drags.map(|text| Drag::parse(&problem, text));
+    let drags: Vec<Drag> = drags.collect::<Result<_, _>>().map_err(|e| in_file(&e))?;
+    if drags.is_empty() {
+        Setting::check(&problem, &settings).map_err(|e| in_file(&e))?;
+    }
     let warnings = loaded.warnings(&given);
     let mut account = None;
     let mut led = settings.clone();
@@ -188,11 +198,18 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     if !arguments.quiet && !elsewhere {
         say_if_it_moves(&problem);
     }
-    let mut session = match open(&problem, &arguments.file, &options, &mut control)? {
+    let opened = match drags.is_empty() {
+        true => Session::open_with(&problem, &options, &mut control),
+        false => Session::open_to_drag(&problem, &options, &mut control),
+    };
+    let mut session = match taken(opened, &arguments.file)? {
         Ok(session) => session,
         Err(code) => return Ok(code),
     };
-    let mut edited = session.edit_with(&led, &mut control);
+    let mut edited = match drags.is_empty() {
+        true => session.edit_with(&led, &mut control),
+        false => session.drag(&drags, &mut control),
+    };
     if let (Some(account), true) = (account, cert.is_some()) {
         edited.account = account;
     }
@@ -228,6 +245,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         let (points, radii) = (session.figure(), session.radii());
         let mut changed = loaded.problem.clone();
         given.iter().for_each(|setting| setting.apply(&mut changed));
+        changed.parameters = asked.parameters;
         let bytes = loaded.rewritten(&arguments.file, &changed, &points, &radii);
         let bytes = bytes.map_err(|e| in_file(&e))?;
         let beside = Beside::new(out)?;
@@ -384,7 +402,12 @@ pub(super) fn open(
     options: &Options,
     control: &mut Control,
 ) -> Result<Result<Session, u8>, String> {
-    match Session::open_with(problem, options, control) {
+    taken(Session::open_with(problem, options, control), file)
+}
+
+/// A session, or its exit code where the sketch is no figure, which is said.
+fn taken(opened: Result<Session, OpenError>, file: &Path) -> Result<Result<Session, u8>, String> {
+    match opened {
         Ok(session) => Ok(Ok(session)),
         Err(error @ OpenError::Correction { .. }) => {
             output::complain(&in_file(file, &error));
@@ -397,6 +420,7 @@ pub(super) fn open(
 /// The exit code that tells how an edit ended.
 pub(super) fn exit_code(edited: &Edited) -> u8 {
     match edited.ending {
+        Ending::Reached if edited.dragged.as_ref().is_some_and(|d| !d.is_there) => LIMIT,
         Ending::Reached => CLOSED,
         Ending::Limit(_) => LIMIT,
         Ending::Passes(_) => PASSES,

@@ -1,7 +1,7 @@
 //! `krawl edit --serve`: edits as lines of JSON, one answer for each.
 
 use super::input::Loaded;
-use krawl::edit::{Ending, Session, Setting};
+use krawl::edit::{Drag, Ending, Session, Setting};
 use krawl::report::{edit_to_value, figure_to_value};
 use krawl::track::Control;
 use serde::Deserialize;
@@ -20,6 +20,9 @@ struct Request<'a> {
     /// New values by name: numbers, or texts with numbers in them.
     #[serde(borrow, default)]
     set: BTreeMap<String, &'a RawValue>,
+    /// Places for points by name, lists of numbers: they are dragged there.
+    #[serde(borrow, default)]
+    drag: BTreeMap<String, Vec<&'a RawValue>>,
     /// Whether the figure stays what it is.
     #[serde(default)]
     probe: bool,
@@ -70,6 +73,16 @@ fn answer(session: &mut Session, loaded: &Loaded, line: &[u8]) -> Value {
         }
     };
     let mut answer = match settings(session, &request) {
+        _ if !request.drag.is_empty() => match drags(session, &request) {
+            Err(reason) => json!({"status": "error", "reason": reason}),
+            Ok(drags) => {
+                let edited = session.drag(&drags, &mut Control::default());
+                let mut value = edit_to_value(session.problem(), &edited, session.moved());
+                let is_moved = edited.dragged.is_some_and(|dragged| dragged.legs > 0);
+                value["committed"] = json!(is_moved);
+                value
+            }
+        },
         Err(reason) => json!({"status": "error", "reason": reason}),
         Ok(settings) if settings.is_empty() => figure_to_value(session),
         Ok(settings) => {
@@ -90,16 +103,37 @@ fn answer(session: &mut Session, loaded: &Loaded, line: &[u8]) -> Value {
     answer
 }
 
+/// The text of a number, never a float: 5.2 is 52/10.
+fn number(value: &RawValue) -> String {
+    let text = value.get();
+    serde_json::from_str::<String>(text).unwrap_or_else(|_| text.to_owned())
+}
+
+/// Where points are to be dragged.
+fn drags(session: &Session, request: &Request) -> Result<Vec<Drag>, String> {
+    if !request.set.is_empty() || request.probe {
+        return Err(
+            "points are dragged in a line of its own, without `set` and `probe`".to_owned(),
+        );
+    }
+    if !session.can_drag() {
+        return Err(
+            "the sketch has no place of its own, so that no point is at one either: fix a point of it, as `fixed = [\"A\"]` does"
+                .to_owned(),
+        );
+    }
+    let all = request.drag.iter().map(|(name, to)| {
+        let to: Vec<String> = to.iter().map(|x| number(x)).collect();
+        let to: Vec<&str> = to.iter().map(String::as_str).collect();
+        Drag::new(session.problem(), name, &to)
+    });
+    all.collect()
+}
+
 fn settings(session: &Session, request: &Request) -> Result<Vec<Setting>, String> {
     let problem = session.problem();
     let settings = request.set.iter().map(|(name, value)| {
-        // The text of the number, never a float: 5.2 is 52/10.
-        let text = value.get();
-        let text = match serde_json::from_str::<String>(text) {
-            Ok(text) => text,
-            Err(_) => text.to_owned(),
-        };
-        Setting::named(problem, name, &text).map_err(|error| error.to_string())
+        Setting::named(problem, name, &number(value)).map_err(|error| error.to_string())
     });
     let settings = settings.collect::<Result<Vec<_>, _>>()?;
     if !settings.is_empty() {

@@ -116,7 +116,7 @@ fn drive(arguments: &Arguments, vary: &str, ends: [&str; 2]) -> Result<u8, Strin
     let problem = input::load(&arguments.file, arguments.sketch.as_deref())?.problem;
     let in_file = |error: &dyn std::fmt::Display| format!("{shown}: {error}");
     let named = ends.each(|value| (vary, value));
-    let asked = Asked::new(&problem, &named).map_err(|e| in_file(&e))?;
+    let asked = Asked::of_dimensions(&problem, &named).map_err(|e| in_file(&e))?;
     Setting::check(&asked.problem, &asked.settings[..1]).map_err(|e| in_file(&e))?;
     let measures = arguments.measured.of(&problem)?;
     let as_turns = asked.in_words(&problem);

@@ -73,7 +73,7 @@ pub(super) fn run(arguments: &Arguments, file: &Path) -> Result<u8, String> {
         .iter()
         .flat_map(|row| table.names.iter().zip(row));
     let cells: Vec<(&str, &str)> = cells.map(|(name, cell)| (&**name, &**cell)).collect();
-    let asked = Asked::new(&loaded.problem, &cells)
+    let asked = Asked::of_dimensions(&loaded.problem, &cells)
         .map_err(|error| format!("{}: {error}", file.display()))?;
     let (columns, problem) = (table.names.len(), &asked.problem);
     let measures = arguments.measured.of(problem)?;

@@ -1,5 +1,6 @@
 //! What comes of an edit.
 
+use super::drag::Dragged;
 use crate::blocks::{Account, Singular};
 use crate::interval::Interval;
 use crate::track::Stop;
@@ -98,6 +99,8 @@ pub struct Edited {
     /// Where on the way a figure first misses a constraint that was left out, proved, although where the edit ended it is not known to be
     /// missed.
     pub astray: Option<Astray>,
+    /// Of points that were dragged: where they are.
+    pub dragged: Option<Dragged>,
     /// Wall-clock seconds.
     pub seconds: f64,
 }

@@ -37,6 +37,7 @@
 //! ```
 
 mod alone;
+mod drag;
 mod ending;
 mod flat;
 mod limits;
@@ -54,6 +55,7 @@ mod within;
 mod write;
 
 pub use alone::{Alone, alone};
+pub use drag::{Drag, Dragged};
 use ending::Keep;
 pub use ending::{Astray, Dimension, Edited, Ending, Limit, Lost, Orientations};
 pub use limits::{End, Range};

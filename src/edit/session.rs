@@ -1,5 +1,6 @@
 //! A figure and the edits of it.
 
+use super::drag::Drag;
 use super::ending::{Astray, Edited, Ending, Keep, Orientations};
 use super::open::{Moved, OpenError};
 use super::parts::Parts;
@@ -67,6 +68,39 @@ impl Session {
             Way::Whole(Box::new(Whole::open_with(problem, options, control)?))
         };
         Ok(Session { way })
+    }
+
+    /// The same of a sketch of which points are to be dragged ([`Session::drag`]): it is followed part by part, wherever it is.
+    ///
+    /// # Errors
+    /// As [`Session::open`].
+    pub fn open_to_drag(
+        problem: &Problem,
+        options: &Options,
+        control: &mut Control,
+    ) -> Result<Self, OpenError> {
+        let parts = Parts::open(problem, options, control)?;
+        Ok(Session {
+            way: Way::Parts(Box::new(parts)),
+        })
+    }
+
+    /// Whether points can be dragged: the session was opened to do so, or its sketch is in its own frame.
+    pub fn can_drag(&self) -> bool {
+        matches!(self.way, Way::Parts(_))
+    }
+
+    /// Drags points to where they are wanted, all dimensions staying what they are, or as near to that as a figure is found; the rest moves
+    /// little. The way is proved as those of edits are: the coordinates that nothing determines are led, on each leg straight to where they are
+    /// in the end of it. The session's figure is then the one that was come to.
+    ///
+    /// # Panics
+    /// If the session cannot be dragged in ([`Session::can_drag`]), or a point is none of the problem's.
+    pub fn drag(&mut self, drags: &[Drag], control: &mut Control) -> Edited {
+        match &mut self.way {
+            Way::Whole(_) => panic!("points cannot be dragged in a figure that has no place"),
+            Way::Parts(parts) => parts.drag(drags, control),
+        }
     }
 
     /// The problem with the dimensions as they are now. Its sketch is the one that was given.

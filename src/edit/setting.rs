@@ -85,6 +85,18 @@ pub enum SettingError {
     /// A dimension is set twice.
     #[error("{0} is set twice: leave out one of the two")]
     Twice(String),
+    /// A dimension is computed from parameters.
+    #[error("{0} is computed, by `{1}`: set the parameter in it")]
+    Computed(String, String),
+    /// A name like that of a parameter.
+    #[error("there is no dimension or parameter `{0}`: did you mean `{1}`?")]
+    NearParameter(String, String),
+    /// A parameter where a dimension is driven.
+    #[error("{0} is a parameter, which `krawl edit --set` sets: name a dimension to drive")]
+    Parameter(String),
+    /// A parameter, or a dimension, cannot be computed.
+    #[error("{0}: {1}")]
+    Expression(String, String),
     /// None at all.
     #[error("no dimension is set: name one, such as {0}")]
     None(String),

@@ -364,6 +364,7 @@ impl Whole {
             account: self.scope(),
             singular: None,
             astray: None,
+            dragged: None,
             seconds: 0.0,
         };
         (edited, figure)

@@ -6,7 +6,9 @@ use crate::constraint::{Arguments, KINDS, LineName, Measure, is_opposite_nearer}
 use crate::interval::Real;
 use crate::order::InOrder;
 use crate::places::Each as _;
+use crate::problem::expression::{evaluate, with_set};
 use crate::problem::{Constraint, Decimal, Item, Problem, Target};
+use crate::statement::nearest;
 use num_rational::BigRational;
 use num_traits::Signed;
 use std::collections::{HashMap, HashSet};
@@ -20,10 +22,56 @@ pub struct Asked {
     pub settings: Vec<Setting>,
     /// The same settings of the problem that was given.
     pub given: Vec<Setting>,
+    /// The parameters as they are then.
+    pub parameters: Vec<(String, Decimal)>,
+}
+
+/// The number of a dimension, as it is given.
+fn number(problem: &Problem, index: usize) -> Option<&Decimal> {
+    match index.checked_sub(problem.distances.len()) {
+        None => {
+            let (Target::Length(number) | Target::SquaredLength(number)) =
+                &problem.distances[index].target;
+            Some(number)
+        }
+        Some(c) => problem.constraints[c].value.as_ref(),
+    }
+}
+
+/// The dimensions that are computed, by index, and what they are with these parameters: those that are others then, or else all.
+fn following(
+    problem: &Problem,
+    parameters: &[(String, Decimal)],
+) -> Result<Vec<(usize, Decimal)>, SettingError> {
+    let mut out = Vec::new();
+    for index in problem.dimensions() {
+        let Some(now) = number(problem, index) else {
+            continue;
+        };
+        let Some(expression) = now.expression() else {
+            continue;
+        };
+        let value = evaluate(expression, parameters);
+        let name = || problem.dimension_name(index);
+        let value = value.map_err(|why| SettingError::Expression(name(), why))?;
+        if index < problem.distances.len()
+            && matches!(problem.distances[index].target, Target::SquaredLength(_))
+        {
+            let why =
+                "a squared length that is computed cannot be edited: give the length".to_owned();
+            return Err(SettingError::Expression(name(), why));
+        }
+        out.push((index, value));
+    }
+    let is_other = |(index, value): &(usize, Decimal)| number(problem, *index) != Some(value);
+    if out.iter().any(is_other) {
+        out.retain(is_other);
+    }
+    Ok(out)
 }
 
 impl Asked {
-    /// Settings of a problem, each a dimension's name and its new value. An angle in the plane may be set to any number of degrees: 250
+    /// Settings of a problem, each the name of a dimension or of a parameter and its new value. What is computed from parameters follows. An angle in the plane may be set to any number of degrees: 250
     /// and −110 are the same place, and the way there goes up or down. It is counted in the sense in which it is drawn.
     ///
     /// # Errors
@@ -32,10 +80,29 @@ impl Asked {
         let mut indices: HashMap<&str, usize> = HashMap::new();
         let mut beyond = HashSet::new();
         let mut given = Vec::with_capacity(named.len());
+        let mut set: Vec<(String, Decimal)> = Vec::new();
         for &(name, value) in named {
+            if problem.parameters.iter().any(|(other, _)| other == name) {
+                let value = value.parse();
+                let value = value.map_err(|error| SettingError::Number {
+                    name: name.to_owned(),
+                    error,
+                })?;
+                if set.iter().any(|(other, _)| other == name) {
+                    return Err(SettingError::Twice(name.to_owned()));
+                }
+                set.push((name.to_owned(), value));
+                continue;
+            }
             let index = match indices.get(name) {
                 Some(&index) => index,
-                None => Setting::find(problem, name)?,
+                None => Setting::find(problem, name).map_err(|error| {
+                    let known = problem.parameters.iter().map(|(name, _)| name.as_str());
+                    match nearest(name, known) {
+                        Some(near) => SettingError::NearParameter(name.to_owned(), near),
+                        None => error,
+                    }
+                })?,
             };
             indices.insert(name, index);
             let value = value.parse().map_err(|error| {
@@ -45,7 +112,23 @@ impl Asked {
             if is_beyond(&value) {
                 beyond.insert(index);
             }
+            if let Some(expression) = number(problem, index).and_then(Decimal::expression) {
+                let name = problem.dimension_name(index);
+                return Err(SettingError::Computed(name, expression.to_owned()));
+            }
             given.push((index, value));
+        }
+        let parameters = with_set(&problem.parameters, &set)
+            .map_err(|(name, why)| SettingError::Expression(name, why))?;
+        if !set.is_empty() {
+            let followed = following(problem, &parameters)?;
+            beyond.extend(
+                followed
+                    .iter()
+                    .filter(|(_, value)| is_beyond(value))
+                    .map(|f| f.0),
+            );
+            given.extend(followed);
         }
         let head = problem.distances.len();
         let (problem, places) = with_turns(problem, |c, _| beyond.contains(&(head + c)));
@@ -53,6 +136,7 @@ impl Asked {
             problem,
             settings: Vec::new(),
             given: Vec::new(),
+            parameters,
         };
         for (index, value) in given {
             let now = index.checked_sub(head).map_or(index, |c| head + places[c]);
@@ -62,6 +146,18 @@ impl Asked {
             asked.settings.push(setting);
         }
         Ok(asked)
+    }
+
+    /// Settings of dimensions alone, as [`Asked::new`]: one or several rows of them.
+    ///
+    /// # Errors
+    /// As there; and one is of a parameter.
+    pub fn of_dimensions(problem: &Problem, named: &[(&str, &str)]) -> Result<Self, SettingError> {
+        let mut parameters = problem.parameters.iter();
+        match parameters.find(|(name, _)| named.iter().any(|(other, _)| other == name)) {
+            Some((name, _)) => Err(SettingError::Parameter(name.clone())),
+            None => Self::new(problem, named),
+        }
     }
 
     /// The first angle that is set to 0 or 180 degrees and whole turns, by index in `given`: the problem.

@@ -74,6 +74,17 @@ pub fn rewrite(
             }
         }
     }
+    for (name, wanted) in &problem.parameters {
+        let value = table(root, "parameters").and_then(|all| all.get(name)?.as_value());
+        let value = value.ok_or_else(|| other(name))?;
+        let is_said = match wanted.expression() {
+            Some(expression) => value.as_str() == Some(expression),
+            None => said(text, value).as_ref() == Some(wanted),
+        };
+        if !is_said {
+            put(value, toml_number(wanted.text()))?;
+        }
+    }
     let constraints = table(root, "constraints").ok_or_else(|| other("no constraints"))?;
     let list = |key: &str| -> Vec<&Value> {
         let array = constraints.get(key).and_then(Item::as_array);
@@ -105,6 +116,10 @@ pub fn rewrite(
         let Some(wanted) = &constraint.value else {
             continue;
         };
+        let last = entry.as_array().and_then(|array| array.iter().last());
+        if wanted.expression().is_some() && last.and_then(Value::as_str) == wanted.expression() {
+            continue;
+        }
         let wanted = &match key.as_str() {
             "angles" => folded(wanted)
                 .ok_or_else(|| WriteError::Straight(problem.constraint_name(index)))?,
@@ -140,6 +155,10 @@ pub fn rewrite(
         let number = value.as_array().and_then(|array| array.get(2));
         let number = number.ok_or_else(|| other("a distance without a number"))?;
         let name = || problem.distance_name(index);
+        let (Target::Length(now) | Target::SquaredLength(now)) = &problem.distances[index].target;
+        if now.expression().is_some() && number.as_str() == now.expression() {
+            continue;
+        }
         let wanted = match (&problem.distances[index].target, is_square) {
             (Target::Length(length), false) => length.clone(),
             (Target::SquaredLength(square), true) => square.clone(),

@@ -279,6 +279,7 @@ impl Drawing {
             distances,
             labels,
             tolerances: Default::default(),
+            parameters: Vec::new(),
         };
         Finished {
             problem,

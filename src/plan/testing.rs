@@ -80,6 +80,7 @@ pub(crate) fn rigid(
             Some(Problem {
                 labels: Default::default(),
                 tolerances: Default::default(),
+                parameters: Vec::new(),
                 name: "random".into(),
                 dimension,
                 source: String::new(),

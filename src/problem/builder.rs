@@ -374,6 +374,7 @@ impl ProblemBuilder {
         let mut problem = Problem {
             labels: Default::default(),
             tolerances: Default::default(),
+            parameters: Vec::new(),
             name: self.name,
             dimension: self.dimension,
             source: self.source,

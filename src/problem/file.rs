@@ -5,6 +5,7 @@
 
 use super::builder::ProblemBuilder;
 use super::error::{MAX_NAME, MAX_POINTS, Place, did_you_mean};
+use super::expression;
 use super::{Decimal, DecimalError, Problem, ProblemError, Published};
 use crate::constraint::KINDS;
 use crate::statement::{Tolerances, nearest};
@@ -85,6 +86,14 @@ pub enum FileFault {
         key: String,
         /// What is wrong with it.
         source: DecimalError,
+    },
+    /// An expression cannot be computed.
+    #[error("{key}: {why}")]
+    Expression {
+        /// The whole key.
+        key: String,
+        /// What is wrong with it, and where.
+        why: String,
     },
     /// Points, distances and homotopy do not fit together.
     #[error("{key}{error}")]
@@ -246,6 +255,8 @@ pub(super) struct Reader<'a> {
 /// Where the parts of a problem stand in the file.
 #[derive(Default)]
 pub(super) struct Places {
+    /// The parameters of the file.
+    pub(super) parameters: Vec<(String, Decimal)>,
     name: Option<usize>,
     dimension: Option<usize>,
     points: Vec<Option<usize>>,
@@ -296,11 +307,16 @@ impl<'a> Reader<'a> {
                 "bodies",
                 "constraints",
                 "homotopy",
+                "parameters",
                 "tolerances",
                 "published",
             ],
         )?;
-        let mut places = Places::default();
+        let parameters = self.parameters(root)?;
+        let mut places = Places {
+            parameters,
+            ..Places::default()
+        };
 
         let dimension = match self.get(root, "dimension") {
             None => return Err(self.missing("dimension", "dimension = 2 (plane) or 3 (space)")),
@@ -342,6 +358,7 @@ impl<'a> Reader<'a> {
         let problem = builder.finish();
         let mut problem = problem.map_err(|error| self.in_problem(&places, error))?;
         problem.tolerances = self.tolerances(root)?;
+        problem.parameters = places.parameters;
         Ok((problem, published))
     }
 
@@ -500,7 +517,7 @@ impl<'a> Reader<'a> {
             let (a, b) = (a?, b?);
             let shown = |name: &str| name.chars().take(40).collect::<String>();
             let here = format!("{key}: {}-{}", shown(a), shown(b));
-            let number = self.number(line, &here, number)?;
+            let number = self.number_of(line, &here, number, places)?;
             builder = builder.squared_distance(a, b, number);
             places.distances.push((key, line));
         }
@@ -547,6 +564,67 @@ impl<'a> Reader<'a> {
             builder = builder.detour(self.number(line, key, value)?);
         }
         Ok(builder)
+    }
+
+    fn parameters(&self, root: &dyn TableLike) -> Result<Vec<(String, Decimal)>, FileError> {
+        let mut out: Vec<(String, Decimal)> = Vec::new();
+        let Some((line, item)) = self.get(root, "parameters") else {
+            return Ok(out);
+        };
+        for (name, item) in self.table(line, "parameters", item)?.iter() {
+            let shown: String = name.chars().take(60).collect();
+            let key = format!("parameters.{shown}");
+            let line = self.line(item.span()).or(line);
+            if !expression::is_name(name) {
+                let wanted = "a name of letters, digits and underscores, a letter first";
+                return Err(self.wrong(line, &key, wanted, format!("`{shown}`")));
+            }
+            let wanted = "a number, or an expression in quotes of those before, \"width/2 + 3\"";
+            let value = item
+                .as_value()
+                .ok_or_else(|| self.wrong_kind(line, &key, wanted, item))?;
+            let value = match value {
+                Value::String(text) => self.computed(line, &key, text.value(), &out)?,
+                Value::Integer(_) | Value::Float(_) => self.number(line, &key, value)?,
+                _ => return Err(self.wrong_kind(line, &key, wanted, item)),
+            };
+            out.push((name.to_owned(), value));
+        }
+        Ok(out)
+    }
+
+    /// The number that an expression says.
+    fn computed(
+        &self,
+        line: Line,
+        key: &str,
+        text: &str,
+        parameters: &[(String, Decimal)],
+    ) -> Result<Decimal, FileError> {
+        expression::evaluate(text, parameters).map_err(|why| {
+            let fault = FileFault::Expression {
+                key: key.to_owned(),
+                why,
+            };
+            self.fail(line, fault)
+        })
+    }
+
+    /// The number of a constraint, which may be an expression where the file has parameters.
+    pub(super) fn number_of(
+        &self,
+        line: Line,
+        key: &str,
+        value: &Value,
+        places: &Places,
+    ) -> Result<Decimal, FileError> {
+        match value.as_str() {
+            Some(text) if !places.parameters.is_empty() => {
+                let line = self.line(value.span()).or(line);
+                self.computed(line, key, text, &places.parameters)
+            }
+            _ => self.number(line, key, value),
+        }
     }
 
     fn tolerances(&self, root: &dyn TableLike) -> Result<Tolerances, FileError> {

@@ -9,6 +9,7 @@ mod builder;
 mod check;
 mod draft;
 mod error;
+pub(crate) mod expression;
 mod file;
 mod published;
 mod reference;

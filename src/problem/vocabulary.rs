@@ -152,9 +152,13 @@ impl Reader<'_> {
                     .as_str()
                     .is_some_and(|text| text.parse::<Decimal>().is_ok() && !objects.contains(text))
             };
+            // Where a file has parameters what stands last is no name, but an expression.
+            let computed = |value: &&Value| !places.parameters.is_empty() && value.is_str();
             let number = match parts.len() {
                 0 | 1 => parts.pop_if(|last| wants_number && is_number(last)),
-                _ => parts.pop_if(|last| wants_number && (is_number(last) || quoted(last))),
+                _ => parts.pop_if(|last| {
+                    wants_number && (is_number(last) || quoted(last) || computed(last))
+                }),
             };
             let mut names = Vec::with_capacity(parts.len());
             for part in parts {
@@ -175,7 +179,9 @@ impl Reader<'_> {
                     .any(|&n| objects.contains(n) || AXES.contains(&n));
             let shown: Vec<String> = names.iter().map(|n| n.chars().take(40).collect()).collect();
             let here = format!("{key}: {}", shown.join("-"));
-            let number = number.map(|n| self.number(line, &here, n)).transpose()?;
+            let number = number
+                .map(|n| self.number_of(line, &here, n, places))
+                .transpose()?;
             builder = match (number, between_points) {
                 (Some(number), true) => {
                     places.distances.push(("constraints.distances", line));

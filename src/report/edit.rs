@@ -4,10 +4,12 @@ use super::JSON_VERSION;
 use super::certain_digits;
 use super::drawing::{Drawing, names};
 use crate::blocks::{Account, Why};
-use crate::edit::{Alone, Decomposition, Dimension, Edited, Ending, Limit, Moved, Session};
+use crate::edit::{
+    Alone, Decomposition, Dimension, Drag, Dragged, Edited, Ending, Limit, Moved, Session,
+};
 use crate::interval::Interval;
 use crate::order::InOrder;
-use crate::problem::{Problem, counted, list};
+use crate::problem::{Decimal, Problem, counted, list};
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
 
@@ -70,6 +72,9 @@ pub(super) fn named(problem: &Problem, points: &[usize]) -> String {
 
 /// What came of an edit in words, one sentence or two, without the figure.
 pub fn edit_in_words(problem: &Problem, edited: &Edited) -> String {
+    if let Some(dragged) = &edited.dragged {
+        return dragged_in_words(problem, edited, dragged);
+    }
     let changes = edited.dimensions.iter().map(|d| {
         let name = problem.dimension_name(d.index);
         format!("{name} from {} to {}", short(d.from), short(d.to))
@@ -149,6 +154,62 @@ pub fn edit_in_words(problem: &Problem, edited: &Edited) -> String {
             edited.t.0
         ),
     }
+}
+
+/// What came of dragging points.
+fn dragged_in_words(problem: &Problem, edited: &Edited, dragged: &Dragged) -> String {
+    let names: Vec<usize> = dragged.places.iter().map(|(drag, _)| drag.point).collect();
+    let names = named(problem, &names);
+    let place = match (dragged.is_there, &dragged.places[..]) {
+        (true, [_]) => format!("{names} is where it was wanted"),
+        (true, _) => format!("{names} are where they were wanted"),
+        (false, [(_, off)]) => {
+            format!("{names} is {} from where it was wanted", short(*off))
+        }
+        (false, places) => {
+            let off: Vec<String> = places.iter().map(|(_, off)| short(*off)).collect();
+            format!(
+                "{names} are {} from where they were wanted",
+                list(&off, LISTED)
+            )
+        }
+    };
+    let why = match (dragged.is_there, &dragged.stop) {
+        (true, _) => String::new(),
+        (false, Some(stop)) => format!(" No way further was found: {stop}."),
+        (false, None) => " No figure was found that is nearer to that.".to_owned(),
+    };
+    let account = &edited.account;
+    let led = match dragged.led.is_empty() {
+        true => "the figure stands where it stood".to_owned(),
+        false => {
+            let legs = match dragged.legs {
+                1 => String::new(),
+                legs => format!(", in {legs} legs"),
+            };
+            let scope = account.scope();
+            let scope = if scope.is_empty() {
+                scope
+            } else {
+                format!(", {scope}")
+            };
+            format!(
+                "the figure is the one and only continuation of the old one as {} {} led straight to where {}{legs}{scope}",
+                list(&dragged.led, LISTED),
+                if dragged.led.len() == 1 { "is" } else { "are" },
+                if dragged.led.len() == 1 {
+                    "it is"
+                } else {
+                    "they are"
+                },
+            )
+        }
+    };
+    let left_out = match account.left_out_in_words() {
+        words if words.is_empty() => words,
+        words => format!("; {words}"),
+    };
+    format!("Dragged, proved: {place}; {led}{left_out}.{why}")
 }
 
 /// What is special about the figure at a limit.
@@ -370,7 +431,7 @@ pub fn edit_to_value(problem: &Problem, edited: &Edited, moved: Moved) -> Value 
         .iter()
         .map(|lost| json!({"points": names(problem, &lost.points), "t": [lost.t.0, lost.t.1]}));
     let flat = orientations.flat.iter().map(|f| names(problem, f));
-    json!({
+    let mut value = json!({
         "version": JSON_VERSION,
         "problem": problem.name,
         "status": edited.ending.name(),
@@ -391,7 +452,22 @@ pub fn edit_to_value(problem: &Problem, edited: &Edited, moved: Moved) -> Value 
         "seconds": edited.seconds,
         "switched_on": edited.switched_on,
         "account": edited.account,
-    })
+    });
+    if let Some(dragged) = &edited.dragged {
+        let place = |(drag, off): &(Drag, Interval)| {
+            let to: Vec<f64> = drag.to.iter().map(Decimal::to_f64).collect();
+            let name = problem.points[drag.point].name.clone();
+            (name, json!({"to": to, "off": bounds(*off)}))
+        };
+        value["dragged"] = json!({
+            "places": dragged.places.iter().map(place).collect::<Map<_, _>>(),
+            "is_there": dragged.is_there,
+            "led": dragged.led,
+            "legs": dragged.legs,
+            "reason": dragged.stop.as_ref().map(|stop| &stop.text),
+        });
+    }
+    value
 }
 
 /// An edit as `krawl edit --json` writes it: with what is said of every problem (docs/json.md, "The problem"), and with

@@ -40,6 +40,8 @@ pub struct Problem {
     pub labels: BTreeMap<usize, String>,
     /// The tolerances that the file gives.
     pub tolerances: Tolerances,
+    /// The parameters that the file gives, by which [computed numbers](Decimal::expression) of constraints were computed.
+    pub parameters: Vec<(String, Decimal)>,
 }
 
 /// How far dimensions may be from what is given.

@@ -135,7 +135,13 @@ impl Parts {
         };
         let coordinates: BTreeSet<usize> = self.system.coordinates.iter().copied().collect();
         let at: Vec<f64> = self.figure.iter().map(|known| known.centre).collect();
-        let choice = Choice::new(&self.system, &at, |u| coordinates.contains(&u), first, FINE);
+        let choice = Choice::new(
+            &self.system,
+            &at,
+            |u| coordinates.contains(&u).into(),
+            first,
+            FINE,
+        );
         let new: Vec<usize> = {
             let is_new = |row: &&usize| self.redundant.contains(row);
             choice.used.iter().filter(is_new).copied().collect()
@@ -156,6 +162,21 @@ impl Parts {
                 led[index] = vec![&led[index][0] + &miss, -&miss];
             }
         }
+        self.take(choice, &rights)?;
+        let mut moved = 0.0;
+        if led.iter().any(|right| right.len() > 1) {
+            let End::Reached(figure) = self.follow(&led, control).end else {
+                return None;
+            };
+            moved = self.distance(&figure);
+            self.figure = figure;
+        }
+        self.verdicts = self.verdicts(&self.figure, &rights, None);
+        self.missed(&self.verdicts).is_none().then_some(moved)
+    }
+
+    /// Goes on in other equations, or with other coordinates held, where the figure is now. `None`: they are no square system.
+    pub(super) fn take(&mut self, choice: Choice, rights: &[Vec<Real>]) -> Option<()> {
         for &u in &choice.free {
             if !self.free.contains(&u) {
                 let unit = point(self.unit.powi(self.system.unknowns[u].power));
@@ -174,21 +195,17 @@ impl Parts {
         (self.redundant, self.free) = (choice.redundant, choice.free);
         self.together = self.bound_together();
         self.ready = Followers::default();
-        self.find_what_follows(&rights);
-        let mut moved = 0.0;
-        if led.iter().any(|right| right.len() > 1) {
-            let End::Reached(figure) = self.follow(&led, control).end else {
-                return None;
-            };
-            moved = self.distance(&figure);
-            self.figure = figure;
-        }
-        self.verdicts = self.verdicts(&self.figure, &rights, None);
-        self.missed(&self.verdicts).is_none().then_some(moved)
+        self.find_what_follows(rights);
+        Some(())
     }
 
     /// Legs and what came of the last one, as one edit. `done`: how far on the way the last one began.
-    fn joined(&self, first: &Edited, legs: &[Edited], (last, done): (&Edited, f64)) -> Edited {
+    pub(super) fn joined(
+        &self,
+        first: &Edited,
+        legs: &[Edited],
+        (last, done): (&Edited, f64),
+    ) -> Edited {
         let whole = |t| along((done, 1.0), t);
         let mut edited = last.clone();
         if let Some(astray) = &mut edited.astray {

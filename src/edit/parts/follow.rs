@@ -24,7 +24,13 @@ impl Parts {
     pub(super) fn rights_of(&self, used: Used, rights: &[Vec<Real>]) -> Vec<Real> {
         match used {
             Used::Row(row) => rights[self.system.rows[row].index].clone(),
-            Used::Held(u) => vec![self.system.values[u].clone()],
+            Used::Held(u) => {
+                let value = self.system.values[u].clone();
+                [value]
+                    .into_iter()
+                    .chain(self.led.get(&u).cloned())
+                    .collect()
+            }
         }
     }
 
@@ -77,7 +83,7 @@ impl Parts {
             moving[b] = block.needs.iter().any(|&need| moving[need])
                 || block.equations.iter().any(|&e| match self.used[e] {
                     Used::Row(row) => moves(&rights[self.system.rows[row].index]),
-                    Used::Held(_) => false,
+                    Used::Held(u) => self.led.contains_key(&u),
                 });
         }
         moving

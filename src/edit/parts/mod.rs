@@ -8,6 +8,7 @@
 
 mod anew;
 mod contacts;
+mod drag;
 mod exact;
 mod follow;
 mod left_out;
@@ -19,7 +20,7 @@ mod words;
 
 use crate::blocks::{Account, Blocks, Combination, Cut, Given, Singular, System, Used, Verdict};
 use crate::constraint::{Record, try_lower_all};
-use crate::edit::ending::{Dimension, Edited, Ending, Keep, Limit, Orientations};
+use crate::edit::ending::{Astray, Dimension, Edited, Ending, Keep, Limit, Orientations};
 use crate::edit::lowered;
 use crate::edit::open::{Moved, OpenError};
 use crate::edit::segments::{NARROWER, Reversed, first_lost, segments, stop};
@@ -115,6 +116,8 @@ pub(super) struct Parts {
     unit: f64,
     moved: Moved,
     ready: Followers,
+    /// By how much unknowns that are held otherwise change on the way, in the unit of the problem.
+    led: HashMap<usize, Real>,
     /// Of what was left out, by place: what is looked at all along the way.
     looked_at: Vec<usize>,
 }
@@ -131,6 +134,14 @@ struct Run {
     rejected: usize,
     length: f64,
     switched_on: Vec<String>,
+}
+
+/// What is proved of the figures of a run.
+struct Judged {
+    /// How the last one stands to what was left out.
+    verdicts: Vec<Verdict>,
+    account: Account,
+    astray: Option<Astray>,
 }
 
 enum End {
@@ -242,6 +253,7 @@ impl Parts {
             unit,
             moved: Moved::default(),
             ready: Followers::default(),
+            led: HashMap::new(),
             looked_at: Vec::new(),
             blocks,
             system,
@@ -414,33 +426,15 @@ impl Parts {
                     Some(what) => stopped(Stop::new(StopKind::Contradiction, what)),
                     None => self.follow(&rights, control),
                 };
-                self.end_where_segments_vanish((settings, &rights), &mut run, control);
-                let mut figure = None;
-                let verdicts = match &run.end {
-                    End::Reached(reached) => self.verdicts(reached, &rights, None),
-                    End::Limit(there, _) => {
-                        self.verdicts(there, &rights, Some(hull(run.t.0, run.t.1)))
+                let judged = self.judge((settings, &rights), &mut run, control);
+                astray = judged.astray;
+                let figure = match &run.end {
+                    End::Reached(reached) => {
+                        Some((reached.clone(), lowered.record, rights, judged.verdicts))
                     }
-                    _ => self.verdicts.clone(),
-                };
-                let stop = self.missed(&verdicts).map(|(_, stop)| stop);
-                let stop = stop.or_else(|| match &run.end {
-                    End::Reached(reached) => self.vanished(reached),
                     _ => None,
-                });
-                let way = self.look_on_the_way(&rights, &mut run, control);
-                let account = self.account_of(|k| match way.verdicts.get(&k) {
-                    Some(there) => verdicts[k].and(*there),
-                    None => verdicts[k],
-                });
-                astray = way.astray;
-                if let Some(what) = stop {
-                    run.end = End::Stopped(what);
-                    run.t = (0.0, 0.0);
-                } else if let End::Reached(reached) = &run.end {
-                    figure = Some((reached.clone(), lowered.record, rights, verdicts));
-                }
-                (self.edited(settings, run, account), figure)
+                };
+                (self.edited(settings, run, judged.account), figure)
             }
         };
         let edited = Edited {
@@ -459,6 +453,39 @@ impl Parts {
             self.note_what_follows(&rights);
         }
         edited
+    }
+
+    /// Ends a run where a line or arc shrinks to nothing, and where its figure is none, and tells what is proved of it.
+    fn judge(
+        &mut self,
+        (settings, rights): (&[Setting], &[Vec<Real>]),
+        run: &mut Run,
+        control: &mut Control,
+    ) -> Judged {
+        self.end_where_segments_vanish((settings, rights), run, control);
+        let verdicts = match &run.end {
+            End::Reached(reached) => self.verdicts(reached, rights, None),
+            End::Limit(there, _) => self.verdicts(there, rights, Some(hull(run.t.0, run.t.1))),
+            _ => self.verdicts.clone(),
+        };
+        let stop = self.missed(&verdicts).map(|(_, stop)| stop);
+        let stop = stop.or_else(|| match &run.end {
+            End::Reached(reached) => self.vanished(reached),
+            _ => None,
+        });
+        let way = self.look_on_the_way(rights, run, control);
+        let account = self.account_of(|k| match way.verdicts.get(&k) {
+            Some(there) => verdicts[k].and(*there),
+            None => verdicts[k],
+        });
+        if let Some(what) = stop {
+            (run.end, run.t) = (End::Stopped(what), (0.0, 0.0));
+        }
+        Judged {
+            verdicts,
+            account,
+            astray: way.astray,
+        }
     }
 
     /// Ends a run where a line or arc shrinks to nothing.
@@ -552,6 +579,7 @@ impl Parts {
             account,
             singular: None,
             astray: None,
+            dragged: None,
             seconds: 0.0,
         }
     }

@@ -146,6 +146,7 @@ impl Parts {
             account: parts.scope(),
             singular: parts.singular.clone(),
             astray: None,
+            dragged: None,
             seconds: clock.elapsed().as_secs_f64(),
         };
         if keep.is_taken(&edited) {

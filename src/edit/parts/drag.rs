@@ -1,0 +1,272 @@
+//! A figure led so that points come to where they are wanted, or as near as it can.
+//!
+//! What nothing determines is chosen anew for each leg, the coordinates of these points first, and led straight to where it is in the
+//! nearest figure that has them there: of all figures the one that Newton's method with least changes finds. So the rest moves little.
+//! That figure is found in floats; what is proved is the way to it.
+
+use super::left_out::at_rest_all;
+use super::{End, Known, Parts, Run};
+use crate::blocks::{Choice, FINE, FREE_FIRST, Floats, keep};
+use crate::constraint::{Equation, Role, try_lower_all};
+use crate::edit::drag::{Drag, Dragged};
+use crate::edit::ending::Edited;
+use crate::interval::{Real, enclose, point};
+use crate::linalg::nearest_zero;
+use crate::track::{Control, Stop, StopKind};
+use std::collections::BTreeSet;
+use std::time::Instant;
+
+/// Legs of one way.
+const MOST_LEGS: usize = 60;
+/// Points are not led by a smaller part of the way to where they are wanted at once.
+const LEAST_PART: f64 = 1e-3;
+/// A figure that is nearer than this to the one that is wanted is it, in the unit of length.
+const NEAR: f64 = 1e-9;
+/// So often points are put to where they are wanted, and the figure is corrected, to find the one nearest to that.
+const ROUNDS: usize = 100;
+
+/// A point is where it was wanted if it is no further from there than this, in the unit of length.
+const THERE: f64 = 1e-9;
+
+/// A coordinate of a point that is dragged.
+struct Wanted {
+    unknown: usize,
+    value: Real,
+    /// The same in floats, in the homotopy's unit.
+    near: f64,
+}
+
+impl Parts {
+    /// Drags points. The figure is then the one that was come to.
+    pub fn drag(&mut self, drags: &[Drag], control: &mut Control) -> Edited {
+        let clock = Instant::now();
+        let (mut legs, mut led): (Vec<Edited>, BTreeSet<String>) = Default::default();
+        let stop = self.drag_on(drags, (&mut legs, &mut led), control).err();
+        let mut edited = match legs.split_last() {
+            Some((last, before)) => self.joined(last, before, (last, 0.0)),
+            None => {
+                let run = Run {
+                    end: End::Reached(self.figure.clone()),
+                    t: (1.0, 1.0),
+                    ..super::stopped(Stop::new(StopKind::Enough, ""))
+                };
+                self.edited(&[], run, self.scope())
+            }
+        };
+        edited.account.held.retain(|held| !led.contains(&held.what));
+        let off = |drag: &Drag| {
+            let to = drag.to.iter().zip(&edited.points[drag.point]);
+            let square = to.fold(point(0.0), |sum, (to, at)| sum + (*at - enclose(to)).sqr());
+            (drag.clone(), square.sqrt())
+        };
+        let places: Vec<_> = drags.iter().map(off).collect();
+        edited.dragged = Some(Dragged {
+            is_there: places.iter().all(|(_, off)| off.sup() <= THERE * self.unit),
+            places,
+            led: led.into_iter().collect(),
+            legs: legs.len(),
+            stop,
+        });
+        edited.seconds = clock.elapsed().as_secs_f64();
+        edited
+    }
+
+    /// Goes on until the points are where they are wanted, or as near as a figure is found that has them; or why not so far.
+    fn drag_on(
+        &mut self,
+        drags: &[Drag],
+        (legs, led): (&mut Vec<Edited>, &mut BTreeSet<String>),
+        control: &mut Control,
+    ) -> Result<(), Stop> {
+        let undecided = |why: &str| Stop::new(StopKind::Undecided, why);
+        let lowered = try_lower_all(&self.problem, Some(&self.record));
+        let equations = lowered.map_err(|_| undecided("its equations cannot be made"))?;
+        let equations = equations.tail.equations;
+        let wanted = self.wanted(drags);
+        let mut part = 1.0;
+        for _ in 0..MOST_LEGS {
+            if control.is_interrupted() {
+                return Err(Stop::new(StopKind::Interrupted, "it was interrupted"));
+            }
+            let (near, is_met) = self
+                .nearest(&equations, &wanted, part)
+                .ok_or_else(|| undecided("no figure near that place was found"))?;
+            let far = self.far_from(&near);
+            if far < NEAR && part == 1.0 {
+                return Ok(());
+            }
+            let mut stop = None;
+            // A figure at the end of what can be reached is come near to by halves.
+            let steps = if is_met { &[1.0][..] } else { &[1.0, 0.5] };
+            let found = steps.iter().find_map(|&step| {
+                let mut there = self.clone();
+                let exact = if is_met && part == 1.0 {
+                    &wanted[..]
+                } else {
+                    &[]
+                };
+                match there.leg(&equations, (&near, step), (&wanted, exact), control) {
+                    // Not to another figure with the same numbers, and not nowhere.
+                    Ok(leg) => {
+                        (there.far_from(&near) <= (1.0 - 0.5 * step) * far).then_some((there, leg))
+                    }
+                    Err(why) => {
+                        stop.get_or_insert(why);
+                        None
+                    }
+                }
+            });
+            match found {
+                Some((there, (leg, names))) => {
+                    *self = there;
+                    legs.push(leg);
+                    led.extend(names);
+                    part = f64::min(2.0 * part, 1.0);
+                }
+                None if part > LEAST_PART => part *= 0.5,
+                // Beside a dead centre there is no more to be gained.
+                None if far < 1e-3 => return Ok(()),
+                None => {
+                    return Err(
+                        stop.unwrap_or_else(|| undecided("no way to the figure there was found"))
+                    );
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// How far an unknown is at most from where it is in another figure, in the unit of length.
+    fn far_from(&self, near: &[f64]) -> f64 {
+        let both = self.figure.iter().zip(near);
+        both.fold(0.0, |far: f64, (a, b)| far.max((a.centre - b).abs()))
+    }
+
+    /// Coordinates of points that are dragged.
+    fn wanted(&self, drags: &[Drag]) -> Vec<Wanted> {
+        let d = self.problem.dimension;
+        let all = drags.iter().flat_map(|drag| {
+            let places = drag.to.iter().take(d).enumerate();
+            places.map(|(axis, to)| Wanted {
+                unknown: self.system.coordinates[drag.point * d + axis],
+                value: Real::from(to.value().clone()),
+                near: to.to_f64() / self.unit,
+            })
+        });
+        all.collect()
+    }
+
+    /// Of the figures that meet all constraints one, in floats, that has points this part of the way to where they are wanted, and whether there is one; or else one
+    /// that has them nearest to that, as far as it is found.
+    fn nearest(
+        &self,
+        equations: &[Equation],
+        wanted: &[Wanted],
+        part: f64,
+    ) -> Option<(Vec<f64>, bool)> {
+        let floats = Floats::new(&self.system, equations, self.unit);
+        let rows: Vec<usize> = (0..self.system.rows.len()).collect();
+        let at: Vec<f64> = self.figure.iter().map(|known| known.centre).collect();
+        let goal = |w: &Wanted| at[w.unknown] + part * (w.near - at[w.unknown]);
+        let put = |from: &[f64]| {
+            let mut there = from.to_vec();
+            wanted.iter().for_each(|w| there[w.unknown] = goal(w));
+            there
+        };
+        let exact = nearest_zero(put(&at), 1e-10, |x| {
+            let (jacobian, off) = floats.linearise(&rows, x);
+            let (m, more) = (rows.len(), wanted.len());
+            let (mut jacobian, mut off) = (
+                jacobian.resize_vertically(m + more, 0.0),
+                off.resize_vertically(m + more, 0.0),
+            );
+            for (k, w) in wanted.iter().enumerate() {
+                jacobian[(m + k, w.unknown)] = 1.0;
+                off[m + k] = x[w.unknown] - goal(w);
+            }
+            (jacobian, off)
+        });
+        let is_positive = |at: &Vec<f64>| {
+            let mut all = self.system.unknowns.iter().zip(at);
+            all.all(|(unknown, &x)| unknown.role != Role::Positive || x > 0.0)
+        };
+        if let Some(there) = exact.filter(is_positive) {
+            return Some((there, true));
+        }
+        let mut there = at.clone();
+        for _ in 0..ROUNDS {
+            let next = floats.meet(&rows, put(&there))?;
+            let moved = there.iter().zip(&next);
+            let moved = moved.fold(0.0, |far: f64, (a, b)| far.max((a - b).abs()));
+            there = next;
+            if moved < 1e-3 * NEAR {
+                break;
+            }
+        }
+        Some((there, false))
+    }
+
+    /// A step of the way to a figure, on which what nothing determines is led straight to where it is there. `exact`: what is known exactly of
+    /// that. The names of what was led; or why the way ends.
+    fn leg(
+        &mut self,
+        equations: &[Equation],
+        (near, step): (&[f64], f64),
+        (wanted, exact): (&[Wanted], &[Wanted]),
+        control: &mut Control,
+    ) -> Result<(Edited, Vec<String>), Stop> {
+        let undecided = |why: &str| Stop::new(StopKind::Undecided, why);
+        let rights: Vec<Vec<Real>> = equations.iter().map(|e| e.right.clone()).collect();
+        let rights = at_rest_all(&rights);
+        let at: Vec<f64> = self.figure.iter().map(|known| known.centre).collect();
+        let coordinates: BTreeSet<usize> = self.system.coordinates.iter().copied().collect();
+        let rank = |u: usize| match wanted.iter().any(|w| w.unknown == u) {
+            true => FREE_FIRST,
+            false => coordinates.contains(&u).into(),
+        };
+        let first = |row: usize| keep(&self.problem, self.owners[self.system.rows[row].index]);
+        let choice = Choice::new(&self.system, &at, rank, first, FINE);
+        self.take(choice, &rights)
+            .ok_or_else(|| undecided("its equations do not match its unknowns"))?;
+        let (mut names, mut reached) = (Vec::new(), Vec::new());
+        for u in self.free.clone() {
+            let unit = self.unit.powi(self.system.unknowns[u].power);
+            let exact = exact.iter().filter(|_| step == 1.0);
+            let to = match exact.into_iter().find(|w| w.unknown == u) {
+                Some(w) => w.value.clone(),
+                None => Real::within(point(at[u] + step * (near[u] - at[u])) * point(unit)),
+            };
+            let change = &to - &self.system.values[u];
+            if !change.is_zero() {
+                names.push(self.system.unknowns[u].name.clone());
+                self.led.insert(u, change);
+                reached.push((u, to, unit));
+            }
+        }
+        let mut run = self.follow(&rights, control);
+        let judged = self.judge((&[], &rights), &mut run, control);
+        self.led.clear();
+        if let Some(astray) = judged.astray {
+            return Err(astray.stop);
+        }
+        let figure = match &run.end {
+            End::Reached(figure) => figure.clone(),
+            End::Limit(..) => {
+                return Err(Stop::new(
+                    StopKind::TurnsBack,
+                    "the figure comes to a limit there",
+                ));
+            }
+            End::Passes(stop) | End::Stopped(stop) => return Err(stop.clone()),
+        };
+        self.figure = figure;
+        for (u, to, unit) in reached {
+            // Between the two there is no more than a radius of what it was.
+            self.figure[u] = Known::new(to.enclose() * point(1.0 / unit));
+            self.system.values[u] = to;
+        }
+        self.verdicts = judged.verdicts;
+        let end = End::Reached(self.figure.clone());
+        Ok((self.edited(&[], Run { end, ..run }, judged.account), names))
+    }
+}
