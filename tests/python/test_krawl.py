@@ -151,6 +151,16 @@ def test_linkages_are_followed_all_the_way_round():
         krawl.motion("problems/mechanisms/crank.toml")
 
 
+def test_points_are_dragged():
+    edited = krawl.drag("docs/examples/arm.toml", {"C": (40, 30)})
+    assert edited.status == "reached" and edited.dragged["is_there"]
+    assert edited.data["points"]["C"] == [[40, 40], [30, 30]]
+    session = krawl.Session("docs/examples/arm.toml", drag=True)
+    assert not session.drag({"C": (80.5, 30)}).dragged["is_there"]
+    with pytest.raises(krawl.Error, match="no point `X`"):
+        session.drag({"X": (1, 2)})
+
+
 def test_bad_options_say_what_is_wrong():
     with pytest.raises(krawl.Error, match="space"):
         krawl.solve(OCTAHEDRON, space="outer")

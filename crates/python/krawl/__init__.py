@@ -21,7 +21,7 @@ Every box is given as two arrays, `lower` and `upper`, whose floats enclose the 
 
 from ._krawl import Error, __version__
 from ._results import Complete, Edited, Figure, Motion, Run, Solution, Verdict
-from ._verbs import Session, complete, edit, motion, solve, verify
+from ._verbs import Session, complete, drag, edit, motion, solve, verify
 
 __all__ = [
     "Complete",
@@ -35,6 +35,7 @@ __all__ = [
     "Verdict",
     "__version__",
     "complete",
+    "drag",
     "edit",
     "motion",
     "solve",

@@ -64,6 +64,11 @@ class Run:
         return self.data.get("reason")
 
     @property
+    def dragged(self) -> Optional[dict]:
+        """Of points that were dragged: where each was wanted, and how far it is from there (docs/edit.md)."""
+        return self.data.get("dragged")
+
+    @property
     def stopped_kind(self) -> Optional[str]:
         """What made the run stop, in a word (docs/json.md)."""
         return self.data.get("stopped_kind")

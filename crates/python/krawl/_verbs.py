@@ -1,4 +1,4 @@
-"""The verbs: solve, edit, motion, complete, verify."""
+"""The verbs: solve, edit, drag, motion, complete, verify."""
 
 from __future__ import annotations
 
@@ -108,25 +108,44 @@ def edit(problem: Any, dimensions: Mapping) -> Edited:
     return Session(problem).edit(dimensions)
 
 
-class Session:
-    """A figure that is edited again and again: set up once, and each edit starts from the last one reached."""
+def drag(problem: Any, places: Mapping) -> Edited:
+    """Leads points to where they are wanted, all dimensions staying what they are, or as near as they can: with proof.
 
-    def __init__(self, problem: Any) -> None:
-        self._session = _krawl.Session(*text_and_name(problem))
+    >>> krawl.drag("arm.toml", {"C": (40, 30)}).dragged["is_there"]        # doctest: +SKIP
+    True
+    """
+    return Session(problem, drag=True).drag(places)
+
+
+class Session:
+    """A figure that is edited again and again: set up once, and each edit starts from the last one reached.
+
+    ``drag``: its points are to be dragged, though it has no place of its own.
+    """
+
+    def __init__(self, problem: Any, *, drag: bool = False) -> None:
+        self._session = _krawl.Session(*text_and_name(problem), drag)
 
     def edit(self, dimensions: Mapping) -> Edited:
         """Changes dimensions, given by name. The figure stays what it is if they are not reached."""
         settings = [f"{name}={_number(value)}" for name, value in dimensions.items()]
-        data = json.loads(self._session.edit(settings))
-        moved = data["dimensions"]
-        places = figure(data["points"], _dimension(data["points"]))
-        return Edited(data["status"], tuple(data["t"]), moved, places, data)
+        return _edited(json.loads(self._session.edit(settings)))
+
+    def drag(self, places: Mapping) -> Edited:
+        """Leads points, by name, to where they are wanted. The figure is then the one that was come to."""
+        wanted = [f"{name}={','.join(_number(x) for x in place)}" for name, place in places.items()]
+        return _edited(json.loads(self._session.drag(wanted)))
 
     @property
     def figure(self) -> Figure:
         """The figure as it is now, where the sketch is drawn."""
         names, lower, upper = zip(*self._session.points())
         return Figure(names, np.array(lower), np.array(upper))
+
+
+def _edited(data: dict) -> Edited:
+    places = figure(data["points"], _dimension(data["points"]))
+    return Edited(data["status"], tuple(data["t"]), data["dimensions"], places, data)
 
 
 def _solutions(data: dict, dimension: Optional[int]) -> list:

@@ -250,14 +250,17 @@ struct Session(Mutex<edit::Session>);
 #[pymethods]
 impl Session {
     #[new]
-    fn new(py: Python<'_>, text: &str, name: &str) -> PyResult<Self> {
+    fn new(py: Python<'_>, text: &str, name: &str, to_drag: bool) -> PyResult<Self> {
         let problem = parse(text, name)?;
         let opened = interruptible(py, |cancel: &_| {
             let mut control = Control {
                 cancel: Some(cancel),
                 ..Control::default()
             };
-            edit::Session::open_with(&problem, &Options::certified(), &mut control)
+            match to_drag {
+                true => edit::Session::open_to_drag(&problem, &Options::certified(), &mut control),
+                false => edit::Session::open_with(&problem, &Options::certified(), &mut control),
+            }
         })?;
         Ok(Session(Mutex::new(opened.map_err(bad)?)))
     }
@@ -280,6 +283,28 @@ impl Session {
             Ok(edit_to_json(session.problem(), &edited, session.moved()))
         })?;
         edited
+    }
+
+    /// Drags points, given as `name=x,y`: JSON as of `krawl edit --json`.
+    fn drag(&self, py: Python<'_>, places: Vec<String>) -> PyResult<String> {
+        interruptible(py, |cancel: &_| -> PyResult<String> {
+            let mut session = self.0.lock().map_err(bad)?;
+            if !session.can_drag() {
+                return Err(bad(
+                    "points are dragged in a session that is opened to do so: Session(problem, drag=True)",
+                ));
+            }
+            let drags = places
+                .iter()
+                .map(|text| edit::Drag::parse(session.problem(), text));
+            let drags = drags.collect::<Result<Vec<_>, _>>().map_err(bad)?;
+            let mut control = Control {
+                cancel: Some(cancel),
+                ..Control::default()
+            };
+            let edited = session.drag(&drags, &mut control);
+            Ok(edit_to_json(session.problem(), &edited, session.moved()))
+        })?
     }
 
     /// The figure: name, lower and upper ends of its coordinates, point by point.

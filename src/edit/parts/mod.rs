@@ -479,7 +479,12 @@ impl Parts {
             None => verdicts[k],
         });
         if let Some(what) = stop {
-            (run.end, run.t) = (End::Stopped(what), (0.0, 0.0));
+            // Up to where a figure first misses it, if that was told.
+            let t = way
+                .astray
+                .as_ref()
+                .map_or(0.0, |astray| astray.t.0.max(0.0));
+            (run.end, run.t) = (End::Stopped(what), (t, t));
         }
         Judged {
             verdicts,
