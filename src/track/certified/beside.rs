@@ -102,3 +102,77 @@ impl Beside {
         point(off.value) + hull(-reach, reach)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::constraint::{Entry, Equation, Role, Unknown, value};
+    use crate::equations::{Form, Product};
+    use crate::interval::{Real, point};
+    use crate::system::{Homotopy, Part};
+    use crate::track::arc::{ArcEnd, Figure};
+    use crate::track::certified::arcs;
+    use crate::track::{Control, Options, Space};
+
+    fn equation(products: Vec<Product<Entry>>, right: &[Real]) -> Equation {
+        Equation {
+            name: "an equation".to_owned(),
+            products,
+            right: right.to_vec(),
+            power: 0,
+        }
+    }
+
+    /// Along x² = (1 + 2t)² with x = 1 at first x is 1 + 2t, which two equations beside it say, one of them with 0.001 t more: it is off by
+    /// 0.0005 from t = 1/2 on.
+    #[test]
+    fn figures_are_as_far_off_as_they_are() {
+        let x = Entry::Unknown(0);
+        let whole = |numbers: &[i64]| numbers.iter().map(|&x| Real::whole(x)).collect::<Vec<_>>();
+        let thousandth = &Real::whole(1) / &Real::whole(1000);
+        let beside = [
+            whole(&[1, 2]),
+            vec![Real::whole(1), &Real::whole(2) + &thousandth],
+        ];
+        let square = Product::new(2, value(x), value(x));
+        let linear = Product::new(2, value(x), Form::One);
+        for radius in [1e-5, 1e-8] {
+            let homotopy = Homotopy::of_part(Part {
+                dimension: 2,
+                coordinates: Vec::new(),
+                unit: 1.0,
+                unknowns: vec![Unknown {
+                    name: "x".to_owned(),
+                    sketch: point(1.0),
+                    power: 0,
+                    role: Role::Free,
+                    flips: [false; 3],
+                }],
+                equations: vec![equation(vec![square], &whole(&[1, 4, 4]))],
+                nonzero: Vec::new(),
+                followed: Vec::new(),
+                segments: Vec::new(),
+                beside: beside
+                    .iter()
+                    .map(|right| (equation(vec![linear], right), 5e-4))
+                    .collect(),
+            });
+            let options = Options {
+                space: Space::Full,
+                tube_radius: Some(radius),
+                ..Options::certified()
+            };
+            let start = Figure::of_sketch(&homotopy);
+            let run = arcs(homotopy, &options).follow(&start, &mut Control::default());
+            assert!(matches!(run.end, ArcEnd::Reached(_)), "{:?}", run.end);
+            let [met, missed] = &run.beside[..] else {
+                panic!("two were asked for")
+            };
+            assert!(met.missed.is_none() && met.met.contains(0.0), "{met:?}");
+            assert!(met.met.mag() < 5e-4, "{met:?}");
+            let (off, t) = missed.missed.expect("it is missed");
+            assert!(off.mig() > 5e-4 && off.sup() < 0.0, "{off:?}");
+            assert!(t.1 > 0.5 && t.0 < 0.5 + 1e-2, "{t:?}");
+            assert!(missed.met.mag() <= 5e-4 + 2.0 * radius, "{missed:?}");
+        }
+    }
+}

@@ -63,6 +63,7 @@ impl Piece {
     /// Encloses the path between two parameters of a tube: with c in the middle and r the largest parameter in size, the tube's
     /// polynomial p(s) differs from p(c) + p'(c)(s − c) by at most the sum of k(k − 1)/2 |p_k| rᵏ⁻² times (s − c)².
     pub fn look<const N: usize, Y: Frame>(&mut self, tube: &Tube<N, Y>, a: f64, b: f64) {
+        // All unknowns, and t.
         let n = tube.weights.len() - 1;
         let (z, proof) = (&tube.local.z, &tube.proof);
         let middle = 0.5 * (a + b);
@@ -71,11 +72,11 @@ impl Piece {
         // A coefficient goes through at most 2N roundings in Horner's scheme for the slope.
         let rounding = gamma(4 * N);
         // One order after the other of all entries together. `radius` is the sum of the sizes of the slope's terms at first.
-        let values = &mut self.middle[..n - 1];
-        let slopes = &mut self.slope[..n - 1];
-        let changes = &mut self.radius[..n - 1];
-        let curvatures = &mut self.curvature[..n - 1];
-        let sizes = &mut self.size[..n - 1];
+        let values = &mut self.middle[..n];
+        let slopes = &mut self.slope[..n];
+        let changes = &mut self.radius[..n];
+        let curvatures = &mut self.curvature[..n];
+        let sizes = &mut self.size[..n];
         values.fill(0.0);
         slopes.fill(0.0);
         changes.fill(0.0);
@@ -84,7 +85,7 @@ impl Piece {
         for k in (0..N).rev() {
             let sums = values.iter_mut().zip(&mut *slopes).zip(&mut *changes);
             let sums = sums.zip(&mut *curvatures).zip(&mut *sizes);
-            for (((((value, slope), change), curvature), size), &z) in sums.zip(&z[k][..n - 1]) {
+            for (((((value, slope), change), curvature), size), &z) in sums.zip(&z[k][..n]) {
                 *slope = slope.mul_add(middle, *value);
                 *value = value.mul_add(middle, z);
                 *curvature = curvature.mul_add(reach, *change);
@@ -92,8 +93,8 @@ impl Piece {
                 *size = size.mul_add(reach, z.abs());
             }
         }
-        let (weights, low) = (&tube.weights[..n - 1], &tube.local.low[..n - 1]);
-        for i in 0..n - 1 {
+        let (weights, low) = (&tube.weights[..n], &tube.local.low[..n]);
+        for i in 0..n {
             slopes[i] *= half;
             let bent = curvatures[i] * half * half + proof.distance * weights[i];
             // The last one is of the product above.
