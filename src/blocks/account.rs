@@ -410,12 +410,18 @@ impl Ruler {
         off / (length + right.intersection(is_square).sqrt())
     }
 
-    /// About how far its sides may be apart, in the unit of the problem, for it to count as met.
-    pub fn within(&self, right: Interval) -> f64 {
-        match self.is_square {
-            true => 2.0 * self.epsilon * right.mid().max(0.0).sqrt(),
-            false => self.epsilon * self.scale,
-        }
+    /// How far its sides may be apart, in the unit of the problem: up to the first it counts as met, beyond the second as missed.
+    pub fn within(&self, right: Interval) -> [f64; 2] {
+        let epsilon = point(self.epsilon);
+        let [met, missed] = match self.is_square {
+            // (d ± ε)² − d² = ε (ε ± 2d), the smaller of the two in size where the length is too small.
+            true => {
+                let twice = point(2.0) * right.intersection(hull(0.0, f64::MAX)).sqrt();
+                [epsilon * (twice - epsilon), epsilon * (twice + epsilon)]
+            }
+            false => [epsilon * point(self.scale); 2],
+        };
+        [met.inf().max(0.0), missed.sup()]
     }
 
     /// What is known of it there.

@@ -146,7 +146,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     {
         let name = problem.dimension_name(index);
         return Err(in_file(&format!(
-            "{name}: under `angles` a file has none of 0 or 180 degrees: leave out --out, or say `turns` in the file"
+            "{name}: under `angles` a file has none of 0 or 180 degrees, nor one beyond that is computed: leave out --out, or say `turns` in the file"
         )));
     }
     let measures = arguments.measured.of(&problem)?;
@@ -156,6 +156,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let drags = arguments.drag.iter();
     let drags = drags.map(|text| Drag::parse(&problem, text));
     let drags: Vec<Drag> = drags.collect::<Result<_, _>>().map_err(|e| in_file(&e))?;
+    Drag::check(&problem, &drags).map_err(|e| in_file(&e))?;
     if drags.is_empty() {
         Setting::check(&problem, &settings).map_err(|e| in_file(&e))?;
     }

@@ -127,7 +127,8 @@ fn drags(session: &Session, request: &Request) -> Result<Vec<Drag>, String> {
         let to: Vec<&str> = to.iter().map(String::as_str).collect();
         Drag::new(session.problem(), name, &to)
     });
-    all.collect()
+    let all = all.collect::<Result<Vec<_>, _>>()?;
+    Drag::check(session.problem(), &all).map(|()| all)
 }
 
 fn settings(session: &Session, request: &Request) -> Result<Vec<Setting>, String> {

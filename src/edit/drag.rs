@@ -22,13 +22,31 @@ pub struct Dragged {
     pub led: Vec<String>,
     /// The legs of the way.
     pub legs: usize,
-    /// Whether all points are where they were wanted: no further from there than 1e-9 of the figure's mean length.
+    /// Whether all points are where they were wanted: no further from there than 1e-9 of the size of the figure.
     pub is_there: bool,
     /// Why it goes no further, if the points are not where they were wanted; `None`: no figure was found that has them nearer.
     pub stop: Option<Stop>,
 }
 
 impl Drag {
+    /// Checks that no point is wanted in two places.
+    ///
+    /// # Errors
+    /// One is: in words.
+    pub fn check(problem: &Problem, drags: &[Drag]) -> Result<(), String> {
+        let twice = |(k, drag): (usize, &Drag)| {
+            let is_same = |other: &Drag| other.point == drag.point;
+            drags[..k].iter().any(is_same).then_some(drag.point)
+        };
+        match drags.iter().enumerate().find_map(twice) {
+            Some(p) => Err(format!(
+                "{} is dragged to two places: leave out one of them",
+                problem.points[p].name
+            )),
+            None => Ok(()),
+        }
+    }
+
     /// From a text such as `P=40,25`.
     ///
     /// # Errors
@@ -51,9 +69,10 @@ impl Drag {
     pub fn new(problem: &Problem, name: &str, to: &[&str]) -> Result<Self, String> {
         let point = problem.points.iter().position(|point| point.name == name);
         let point = point.ok_or_else(|| format!("there is no point `{name}`"))?;
-        let to = to
-            .iter()
-            .map(|x| x.trim().parse().map_err(|error| format!("{x}: {error}")));
+        let to = to.iter().map(|x| match x.trim() {
+            "" => Err("a coordinate is missing".to_owned()),
+            x => x.parse().map_err(|error| format!("{error}")),
+        });
         let to: Vec<Decimal> = to.collect::<Result<_, String>>()?;
         match to.len() == problem.dimension {
             true => Ok(Drag { point, to }),

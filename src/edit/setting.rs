@@ -92,7 +92,7 @@ pub enum SettingError {
     #[error("there is no dimension or parameter `{0}`: did you mean `{1}`?")]
     NearParameter(String, String),
     /// A parameter where a dimension is driven.
-    #[error("{0} is a parameter, which `krawl edit --set` sets: name a dimension to drive")]
+    #[error("{0} is a parameter, which `krawl edit FILE --set` sets: name a dimension here")]
     Parameter(String),
     /// A parameter, or a dimension, cannot be computed.
     #[error("{0}: {1}")]
@@ -253,7 +253,14 @@ impl Setting {
     /// From the name of a dimension and the text of its new value.
     pub fn named(problem: &Problem, name: &str, value: &str) -> Result<Self, SettingError> {
         let name = name.trim();
+        if problem.parameters.iter().any(|(other, _)| other == name) {
+            return Err(SettingError::Parameter(name.to_owned()));
+        }
         let index = find(problem, name)?;
+        if let Some(expression) = number(problem, index).and_then(Decimal::expression) {
+            let name = problem.dimension_name(index);
+            return Err(SettingError::Computed(name, expression.to_owned()));
+        }
         let length = value.parse::<Decimal>();
         let length = length.map_err(|error| SettingError::Number {
             name: name.to_owned(),
@@ -335,6 +342,18 @@ fn named_by_lines(problem: &Problem, index: usize) -> Option<String> {
         rest = &after[1..];
     }
     Some(format!("{}:{}", constraint.kind, names.join("-")))
+}
+
+/// The number of a dimension, as it is given.
+pub(super) fn number(problem: &Problem, index: usize) -> Option<&Decimal> {
+    match index.checked_sub(problem.distances.len()) {
+        None => {
+            let (Target::Length(number) | Target::SquaredLength(number)) =
+                &problem.distances[index].target;
+            Some(number)
+        }
+        Some(c) => problem.constraints[c].value.as_ref(),
+    }
 }
 
 /// Whether an index is that of a dimension: of a distance, or of a constraint with a number.

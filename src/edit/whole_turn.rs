@@ -1,6 +1,6 @@
 //! Angles in the plane that are set beyond 0 or 180 degrees: followed as turns.
 
-use super::setting::{Setting, SettingError, measure};
+use super::setting::{Setting, SettingError, measure, number};
 use super::write::direction;
 use crate::constraint::{Arguments, KINDS, LineName, Measure, is_opposite_nearer};
 use crate::interval::Real;
@@ -26,18 +26,6 @@ pub struct Asked {
     pub parameters: Vec<(String, Decimal)>,
 }
 
-/// The number of a dimension, as it is given.
-fn number(problem: &Problem, index: usize) -> Option<&Decimal> {
-    match index.checked_sub(problem.distances.len()) {
-        None => {
-            let (Target::Length(number) | Target::SquaredLength(number)) =
-                &problem.distances[index].target;
-            Some(number)
-        }
-        Some(c) => problem.constraints[c].value.as_ref(),
-    }
-}
-
 /// The dimensions that are computed, by index, and what they are with these parameters: those that are others then, or else all.
 fn following(
     problem: &Problem,
@@ -54,7 +42,8 @@ fn following(
         let value = evaluate(expression, parameters);
         let name = || problem.dimension_name(index);
         let value = value.map_err(|why| SettingError::Expression(name(), why))?;
-        if index < problem.distances.len()
+        if value != *now
+            && index < problem.distances.len()
             && matches!(problem.distances[index].target, Target::SquaredLength(_))
         {
             let why =
@@ -160,14 +149,20 @@ impl Asked {
         }
     }
 
-    /// The first angle that is set to 0 or 180 degrees and whole turns, by index in `given`: the problem.
+    /// The first angle that is set to 0 or 180 degrees and whole turns, or is computed and goes beyond these, by index in `given`: the problem.
     pub fn straight(&self, given: &Problem) -> Option<usize> {
         let straight = BigRational::from_integer(180.into());
         let is_so = |setting: &&Setting| {
             let c = setting.index.checked_sub(given.distances.len());
             let is_angle = c.is_some_and(|c| given.constraints[c].kind == "angles");
             match &setting.target {
-                Target::Length(degrees) if is_angle => (degrees.value() / &straight).is_integer(),
+                Target::Length(degrees) if is_angle => {
+                    let turns = degrees.value() / &straight;
+                    // What is computed is not written as another angle.
+                    let is_beyond =
+                        turns.is_negative() || turns > BigRational::from_integer(1.into());
+                    turns.is_integer() || degrees.expression().is_some() && is_beyond
+                }
                 _ => false,
             }
         };

@@ -9,6 +9,8 @@ use num_traits::{One, Signed, Zero};
 const DIGITS: i32 = 30;
 /// Powers go up to this.
 const MOST_POWER: u32 = 20;
+/// No number on the way has more bits than this, above or below.
+const MOST_BITS: u64 = 20_000;
 /// Parentheses and signs in one another.
 const DEPTH: usize = 50;
 
@@ -125,9 +127,13 @@ impl Reader<'_> {
         let mut sum = self.product()?;
         loop {
             if self.take('+') {
-                sum += self.product()?;
+                let by = self.product()?;
+                self.fits(&by, 1)?;
+                sum += by;
             } else if self.take('-') {
-                sum -= self.product()?;
+                let by = self.product()?;
+                self.fits(&by, 1)?;
+                sum -= by;
             } else {
                 return Ok(sum);
             }
@@ -138,12 +144,17 @@ impl Reader<'_> {
         let mut product = self.signed()?;
         loop {
             if self.take('*') {
-                product *= self.signed()?;
+                let by = self.signed()?;
+                self.fits(&product, 1)?;
+                self.fits(&by, 1)?;
+                product *= by;
             } else if self.take('/') {
                 let by = self.signed()?;
                 if by.is_zero() {
                     return Err(format!("`{}` divides by zero", self.text));
                 }
+                self.fits(&product, 1)?;
+                self.fits(&by, 1)?;
                 product /= by;
             } else {
                 return Ok(product);
@@ -171,6 +182,18 @@ impl Reader<'_> {
         Ok(value)
     }
 
+    /// Whether so many factors like this one are no larger than numbers may be.
+    fn fits(&self, number: &BigRational, times: u32) -> Result<(), String> {
+        let bits = number.numer().bits().max(number.denom().bits());
+        match bits * u64::from(times) <= MOST_BITS {
+            true => Ok(()),
+            false => Err(format!(
+                "`{}` has a number that is too large on the way",
+                self.text
+            )),
+        }
+    }
+
     fn power(&mut self) -> Result<BigRational, String> {
         let base = self.atom()?;
         if !self.take('^') {
@@ -179,7 +202,7 @@ impl Reader<'_> {
         let power = self.atom()?;
         let whole = power.is_integer().then(|| power.to_integer());
         match whole.and_then(|power| u32::try_from(power).ok()) {
-            Some(power) if power <= MOST_POWER => Ok(match power {
+            Some(power) if power <= MOST_POWER => self.fits(&base, power).map(|()| match power {
                 0 => BigRational::one(),
                 power => base.pow(power as i32),
             }),
@@ -281,7 +304,8 @@ mod tests {
             ("width 2", "an operator was expected"),
             ("width^0.5", "a whole number"),
             ("", "a number or a parameter"),
-            ("1e100*1", "out of range"),
+            ("1e50*1e50", "out of range"),
+            ("((((9^20)^20)^20)^20)^20", "too large on the way"),
             (&deep, "in one another"),
         ] {
             let error = evaluate(text, &parameters()).unwrap_err();

@@ -22,8 +22,8 @@ pub struct Part {
     pub followed: Vec<Vec<usize>>,
     /// Lines and arcs that are followed, as they must not vanish.
     pub segments: Vec<Segment>,
-    /// Equations that were left out, and within how much each is met.
-    pub beside: Vec<(Equation, f64)>,
+    /// Equations that were left out, and [`Beside::within`] of each.
+    pub beside: Vec<(Equation, [f64; 2])>,
 }
 
 /// An equation that is not one of a homotopy's own, of which is looked how far figures are off it.
@@ -33,8 +33,8 @@ pub struct Beside {
     pub terms: Vec<Term>,
     /// Its right-hand side.
     pub right: Right,
-    /// It is met where it is off by no more than this.
-    pub within: f64,
+    /// It is met where it is off by no more than the first, and missed where it is off by more than the second.
+    pub within: [f64; 2],
 }
 
 impl Homotopy {

@@ -111,7 +111,8 @@ pub struct Off {
     /// By what its left-hand side is more than its right-hand side: an enclosure for all figures up to there where it is missed. Empty of
     /// none.
     pub met: Interval,
-    /// Where it is first proved to be off by more than [`Beside::within`](crate::system::Beside::within): by what there, and a range of t.
+    /// Where it is first proved to be off by so much that it is missed, by [`Beside::within`](crate::system::Beside::within): by what there, and a
+    /// range of t. Nothing is known of the figures beyond.
     pub missed: Option<(Interval, (f64, f64))>,
 }
 
@@ -126,11 +127,11 @@ impl Default for Off {
 
 impl Off {
     /// Notes what it is off by on a piece of the way, the next one.
-    pub fn take(&mut self, off: Interval, within: f64, t: (f64, f64)) {
+    pub fn take(&mut self, off: Interval, within: [f64; 2], t: (f64, f64)) {
         if self.missed.is_some() {
             return;
         }
-        match off.mig() > within {
+        match off.mig() > within[1] {
             true => self.missed = Some((off, t)),
             false => self.met = self.met.convex_hull(off),
         }

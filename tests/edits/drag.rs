@@ -123,6 +123,7 @@ fn the_program_drags_and_writes_what_it_came_to() {
         ("P1=1", "2 coordinates"),
         ("P1=1,x", "x"),
         ("P1", "P=x,y"),
+        ("P1=,2", "a coordinate is missing"),
     ] {
         let (text, code) = run(&["--drag", wrong]);
         assert!(code == 2 && text.contains(words), "{text}");
@@ -189,4 +190,55 @@ proptest! {
         let back = session.drag(&[drag([before[tip][0], before[tip][1]])], &mut Control::default());
         prop_assert!(back.dragged.unwrap().is_there);
     }
+}
+
+/// Of cranks that are one too many the others follow; a point without any length is where it is wanted at every scale; twice is once too often.
+#[test]
+fn odd_figures_are_dragged_too() {
+    let cranks = r#"
+        dimension = 2
+        [points]
+        A = [0, 0]
+        B = [4, 0]
+        M = [2, 1]
+        P1 = [0.6, 0.8]
+        P2 = [4.6, 0.8]
+        PM = [2.6, 1.8]
+        [constraints]
+        fixed = ["A", "B", "M"]
+        squared_distances = [["P1", "PM", 5], ["PM", "P2", 5]]
+        distances = [["P1", "P2", 4], ["A", "P1", 1], ["B", "P2", 1], ["M", "PM", 1]]
+    "#;
+    let (problem, mut session) = open(cranks);
+    let drag = Drag::parse(&problem, "P1=5,5").unwrap();
+    let edited = session.drag(&[drag], &mut Control::default());
+    let p1 = edited.points[3].map(|x| x.mid());
+    assert!(
+        (p1[0] - p1[1]).abs() < 1e-2 && (p1[0].hypot(p1[1]) - 1.0).abs() < 1e-6,
+        "{p1:?}"
+    );
+    for scale in [1e-8, 1.0, 1e8] {
+        let free = format!(
+            "dimension = 2\n[points]\nP = [{}, {}]\nQ = [0, 0]\n[constraints]\nfixed = [\"Q\"]\n",
+            3.0 * scale,
+            scale
+        );
+        let (problem, mut session) = open(&free);
+        let (x, y) = (1.23456789 * scale, -0.3 * scale);
+        let drag = Drag::parse(&problem, &format!("P={x},{y}")).unwrap();
+        let edited = session.drag(&[drag], &mut Control::default());
+        assert!(edited.dragged.unwrap().is_there);
+        assert!((edited.points[0][0].mid() - x).abs() <= 1e-12 * scale);
+    }
+    let twice = ["P=0,1", "P=1,0"].map(|text| Drag::parse(&problem_of_two(), text).unwrap());
+    assert!(
+        Drag::check(&problem_of_two(), &twice)
+            .unwrap_err()
+            .contains("two places")
+    );
+}
+
+fn problem_of_two() -> Problem {
+    let text = "dimension = 2\n[points]\nP = [1, 1]\nQ = [0, 0]\n[constraints]\nfixed = [\"Q\"]\n";
+    Problem::parse_loosely(text, "two.toml").unwrap()
 }

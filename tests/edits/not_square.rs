@@ -356,3 +356,60 @@ fn what_was_left_out_of_a_bennett_loop_is_met_everywhere_between_its_limits() {
         .retain(|one| !matches!(one.verdict, Verdict::Met { .. }));
     assert!(frames.account.left_out.is_empty(), "{:?}", frames.account);
 }
+
+/// Lengths that grow past what counts as met on the way, and come back to it at the end or at a limit: Q-P is longest where P is above Q.
+#[test]
+fn what_grows_past_its_tolerance_on_the_way_is_not_met_there() {
+    let text = |q: &str, p: &str, x: &str, length: &str| {
+        format!(
+            "name = \"f\"\ndimension = 2\n[points]\nO = [0, 0]\nQ = {q}\nP = {p}\n[constraints]\nfixed = [\"O\", \"Q\"]\nx = [[\"P\", {x}]]\n\
+             distances = [[\"O\", \"P\", 3], [\"Q\", \"P\", {length}]]\n"
+        )
+    };
+    let back = text("[0, -2]", "[-1, 2.8284271247461903]", "-1", "4.93");
+    for tolerance in ["5e-3", "1e-3", "0.01", "0.03", "0.05", "0.06"] {
+        let more = ["--set", "x:P=1", "--redundant-tolerance", tolerance];
+        let (said, code) = run("edit", &back, &more);
+        assert_eq!(code, 0, "{said}");
+        assert!(
+            said.contains("other figures on the way"),
+            "{tolerance}: {said}"
+        );
+        let more = [
+            "--vary",
+            "x:P",
+            "--from",
+            "-1",
+            "--to",
+            "1",
+            "--frames",
+            "2",
+            "--redundant-tolerance",
+            tolerance,
+        ];
+        assert_eq!(run("sweep", &back, &more).1, 1);
+    }
+    let (said, _) = run(
+        "edit",
+        &back,
+        &["--set", "x:P=1", "--redundant-tolerance", "0.071"],
+    );
+    assert!(
+        !said.contains("other figures") && said.contains("met within"),
+        "{said}"
+    );
+    // It is 5 at P = (1.5, 2.598), and the path turns back at x = 3.
+    let limit = text(
+        "[-1, -1.7320508]",
+        "[-1.4999999999999993, 2.598076211353316]",
+        "-1.5",
+        "4.36",
+    );
+    let (said, code) = run("edit", &limit, &["--set", "x:P=4"]);
+    assert!(code == 1 && said.contains("miss `Q-P`"), "{said}");
+    let (said, _) = run("limits", &limit, &[]);
+    assert!(
+        said.contains("x:P grows to -1.4") && said.contains("at least: from there on"),
+        "{said}"
+    );
+}

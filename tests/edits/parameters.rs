@@ -103,6 +103,9 @@ fn what_is_wrong_with_parameters_is_said() {
         let (text, code) = check(&good.replacen(from, to, 1));
         assert!(code == 2 && text.contains(words), "{from} -> {to}: {text}");
     }
+    let endless = good.replace("height - 2*margin", "((((9^20)^20)^20)^20)^20");
+    let (text, code) = check(&endless);
+    assert!(code == 2 && text.contains("too large on the way"), "{text}");
     let file = Path::new("docs/examples/bracket.toml");
     for (asked, words) in [
         (
@@ -123,4 +126,49 @@ fn what_is_wrong_with_parameters_is_said() {
         let (text, code) = run(asked, file);
         assert!(code == 2 && text.contains(words), "{asked:?}: {text}");
     }
+}
+
+/// Under `angles` a file has none beyond 180 degrees, and what is computed is not written as another angle; a squared length that stays does not
+/// stand in the way; a stream of edits keeps what is computed as it is.
+#[test]
+fn what_cannot_be_written_is_refused_before() {
+    let directory = tempfile::tempdir().unwrap();
+    let (file, out) = (
+        directory.path().join("t.toml"),
+        directory.path().join("out.toml"),
+    );
+    let text = "name = \"t\"\ndimension = 2\n[parameters]\nw = 4\ng = 45\nq = 9\n[points]\na = [0, 0]\nb = [4, 0]\nc = [4, 3]\n[constraints]\n\
+                fixed = [\"a\"]\nhorizontal = [[\"a\", \"b\"]]\nangles = [[\"a\", \"b\", \"c\", \"2*g\"]]\ndistances = [[\"a\", \"b\", \"w\"]]\n\
+                squared_distances = [[\"b\", \"c\", \"q\"]]\n";
+    fs::write(&file, text).unwrap();
+    for value in ["g=100", "g=-10", "g=90"] {
+        let asked = ["edit", "--set", value, "--out", out.to_str().unwrap()];
+        let (said, code) = run(&asked, &file);
+        assert!(
+            code == 2 && said.contains("leave out --out") && !out.exists(),
+            "{said}"
+        );
+    }
+    let (said, code) = run(
+        &["edit", "--set", "w=5", "--out", out.to_str().unwrap()],
+        &file,
+    );
+    assert_eq!(code, 0, "{said}");
+    assert_eq!(run(&["check"], &out).1, 0);
+    let (said, code) = run(&["edit", "--set", "q=16"], &file);
+    assert!(code == 2 && said.contains("give the length"), "{said}");
+    let mut command = Command::new(env!("CARGO_BIN_EXE_krawl"));
+    let lines = "{\"set\": {\"w\": 5}}\n{\"set\": {\"a-b\": 5}}\n";
+    let output = command
+        .arg("edit")
+        .arg(&file)
+        .arg("--serve")
+        .write_stdin(lines)
+        .output()
+        .unwrap();
+    let said = String::from_utf8(output.stdout).unwrap();
+    assert!(
+        said.contains("w is a parameter") && said.contains("a-b is computed, by `w`"),
+        "{said}"
+    );
 }

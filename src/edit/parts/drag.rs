@@ -12,20 +12,27 @@ use crate::edit::drag::{Drag, Dragged};
 use crate::edit::ending::Edited;
 use crate::interval::{Real, enclose, point};
 use crate::linalg::nearest_zero;
+use crate::places::{Each as _, array};
+use crate::problem::Decimal;
 use crate::track::{Control, Stop, StopKind};
 use std::collections::BTreeSet;
+use std::mem;
 use std::time::Instant;
 
 /// Legs of one way.
-const MOST_LEGS: usize = 60;
+const MOST_LEGS: usize = 40;
+/// Tubes of one.
+const MOST_TUBES: usize = 300;
+/// Where points are not where they are wanted a leg that brings them nearer by less than this part of what is left is the last.
+const LEAST_GAIN: f64 = 1e-6;
 /// Points are not led by a smaller part of the way to where they are wanted at once.
 const LEAST_PART: f64 = 1e-3;
-/// A figure that is nearer than this to the one that is wanted is it, in the unit of length.
+/// A figure that is nearer than this to the one that is wanted is it, as a part of its size.
 const NEAR: f64 = 1e-9;
 /// So often points are put to where they are wanted, and the figure is corrected, to find the one nearest to that.
-const ROUNDS: usize = 100;
+const ROUNDS: usize = 60;
 
-/// A point is where it was wanted if it is no further from there than this, in the unit of length.
+/// A point is where it was wanted if it is no further from there than this, as a part of the figure's size.
 const THERE: f64 = 1e-9;
 
 /// A coordinate of a point that is dragged.
@@ -40,8 +47,10 @@ impl Parts {
     /// Drags points. The figure is then the one that was come to.
     pub fn drag(&mut self, drags: &[Drag], control: &mut Control) -> Edited {
         let clock = Instant::now();
+        let size = self.size(drags);
         let (mut legs, mut led): (Vec<Edited>, BTreeSet<String>) = Default::default();
-        let stop = self.drag_on(drags, (&mut legs, &mut led), control).err();
+        let stop = self.drag_on(drags, size / self.unit, (&mut legs, &mut led), control);
+        let stop = stop.err();
         let mut edited = match legs.split_last() {
             Some((last, before)) => self.joined(last, before, (last, 0.0)),
             None => {
@@ -61,7 +70,7 @@ impl Parts {
         };
         let places: Vec<_> = drags.iter().map(off).collect();
         edited.dragged = Some(Dragged {
-            is_there: places.iter().all(|(_, off)| off.sup() <= THERE * self.unit),
+            is_there: places.iter().all(|(_, off)| off.sup() <= THERE * size),
             places,
             led: led.into_iter().collect(),
             legs: legs.len(),
@@ -75,6 +84,7 @@ impl Parts {
     fn drag_on(
         &mut self,
         drags: &[Drag],
+        size: f64,
         (legs, led): (&mut Vec<Edited>, &mut BTreeSet<String>),
         control: &mut Control,
     ) -> Result<(), Stop> {
@@ -88,52 +98,98 @@ impl Parts {
             if control.is_interrupted() {
                 return Err(Stop::new(StopKind::Interrupted, "it was interrupted"));
             }
-            let (near, is_met) = self
-                .nearest(&equations, &wanted, part)
-                .ok_or_else(|| undecided("no figure near that place was found"))?;
-            let far = self.far_from(&near);
-            if far < NEAR && part == 1.0 {
+            let away = self.away(&wanted);
+            let near = self.nearest(&equations, (&wanted, size), part);
+            let far = near
+                .as_ref()
+                .map_or(f64::INFINITY, |(near, _)| self.far_from(near));
+            if far < NEAR * size && part == 1.0 {
                 return Ok(());
             }
             let mut stop = None;
-            // A figure at the end of what can be reached is come near to by halves.
-            let steps = if is_met { &[1.0][..] } else { &[1.0, 0.5] };
-            let found = steps.iter().find_map(|&step| {
-                let mut there = self.clone();
+            let found = near.and_then(|(near, is_met)| {
+                // A figure at the end of what can be reached is come near to by halves.
+                let steps = if is_met { &[1.0][..] } else { &[1.0, 0.5] };
                 let exact = if is_met && part == 1.0 {
                     &wanted[..]
                 } else {
                     &[]
                 };
-                match there.leg(&equations, (&near, step), (&wanted, exact), control) {
-                    // Not to another figure with the same numbers, and not nowhere.
-                    Ok(leg) => {
-                        (there.far_from(&near) <= (1.0 - 0.5 * step) * far).then_some((there, leg))
+                steps.iter().find_map(|&step| {
+                    let mut there = self.clone();
+                    match there.leg(&equations, (&near, step), (&wanted, exact), control) {
+                        // Not to another figure with the same numbers, and not nowhere.
+                        Ok(leg) => {
+                            let is_nearer = there.far_from(&near) <= (1.0 - 0.5 * step) * far;
+                            is_nearer.then_some((there, leg))
+                        }
+                        Err(why) => {
+                            stop.get_or_insert(why);
+                            None
+                        }
                     }
-                    Err(why) => {
-                        stop.get_or_insert(why);
-                        None
-                    }
-                }
+                })
             });
             match found {
                 Some((there, (leg, names))) => {
                     *self = there;
                     legs.push(leg);
                     led.extend(names);
+                    if part == 1.0 && self.away(&wanted) > (1.0 - LEAST_GAIN) * away {
+                        return Ok(());
+                    }
                     part = f64::min(2.0 * part, 1.0);
                 }
                 None if part > LEAST_PART => part *= 0.5,
                 // Beside a dead centre there is no more to be gained.
-                None if far < 1e-3 => return Ok(()),
+                None if far < 1e-3 * size => return Ok(()),
                 None => {
                     return Err(
-                        stop.unwrap_or_else(|| undecided("no way to the figure there was found"))
+                        stop.unwrap_or_else(|| undecided("no figure near that place was found"))
                     );
                 }
             }
         }
-        Ok(())
+        let words = format!("it was given up after {MOST_LEGS} attempts");
+        match self.away(&wanted) < NEAR * size {
+            true => Ok(()),
+            false => Err(Stop::new(StopKind::Limit, words)),
+        }
+    }
+
+    /// The size of the figure and of the places where points are wanted: how far any of them is from another at most along an axis, or, where
+    /// all are in one place, from the origin.
+    fn size(&self, drags: &[Drag]) -> f64 {
+        let points = self.points();
+        let of_points = points.iter().map(|p| p.each(|x| x.mid()));
+        let wanted = drags
+            .iter()
+            .map(|drag| array(|k| drag.to.get(k).map_or(0.0, Decimal::to_f64)));
+        let all: Vec<[f64; 3]> = of_points.chain(wanted).collect();
+        let along = |axis: usize| {
+            let of = all.iter().map(|p| p[axis]);
+            let (low, high) = of.fold(
+                (f64::INFINITY, f64::NEG_INFINITY),
+                |(low, high): (f64, f64), x| (low.min(x), high.max(x)),
+            );
+            high - low
+        };
+        let extent = (0..3).map(along).fold(0.0, f64::max);
+        match extent > 0.0 {
+            true => extent,
+            false => all
+                .iter()
+                .flatten()
+                .fold(self.unit, |far, x| far.max(x.abs())),
+        }
+    }
+
+    /// How far the points are from where they are wanted, in the unit of length.
+    fn away(&self, wanted: &[Wanted]) -> f64 {
+        let off = wanted
+            .iter()
+            .map(|w| self.figure[w.unknown].centre - w.near);
+        off.map(|x| x * x).sum::<f64>().sqrt()
     }
 
     /// How far an unknown is at most from where it is in another figure, in the unit of length.
@@ -161,19 +217,21 @@ impl Parts {
     fn nearest(
         &self,
         equations: &[Equation],
-        wanted: &[Wanted],
+        (wanted, size): (&[Wanted], f64),
         part: f64,
     ) -> Option<(Vec<f64>, bool)> {
         let floats = Floats::new(&self.system, equations, self.unit);
         let rows: Vec<usize> = (0..self.system.rows.len()).collect();
         let at: Vec<f64> = self.figure.iter().map(|known| known.centre).collect();
         let goal = |w: &Wanted| at[w.unknown] + part * (w.near - at[w.unknown]);
-        let put = |from: &[f64]| {
+        let put = |from: &[f64], part: f64| {
             let mut there = from.to_vec();
-            wanted.iter().for_each(|w| there[w.unknown] = goal(w));
+            for w in wanted {
+                there[w.unknown] += part * (goal(w) - there[w.unknown]);
+            }
             there
         };
-        let exact = nearest_zero(put(&at), 1e-10, |x| {
+        let exact = nearest_zero(put(&at, 1.0), 1e-10, |x| {
             let (jacobian, off) = floats.linearise(&rows, x);
             let (m, more) = (rows.len(), wanted.len());
             let (mut jacobian, mut off) = (
@@ -193,13 +251,24 @@ impl Parts {
         if let Some(there) = exact.filter(is_positive) {
             return Some((there, true));
         }
+        let off = |at: &[f64]| {
+            let off = wanted.iter().map(|w| (at[w.unknown] - goal(w)).powi(2));
+            off.sum::<f64>()
+        };
         let mut there = at.clone();
         for _ in 0..ROUNDS {
-            let next = floats.meet(&rows, put(&there))?;
+            // From too far away no figure is found.
+            let parts = std::iter::successors(Some(1.0), |part| Some(0.5 * part));
+            let mut parts = parts.take_while(|&part| part > LEAST_PART);
+            let nearer = |next: &Vec<f64>| off(next) < off(&there);
+            let next = parts.find_map(|part| floats.meet(&rows, put(&there, part)).filter(nearer));
+            let Some(next) = next else {
+                break;
+            };
             let moved = there.iter().zip(&next);
             let moved = moved.fold(0.0, |far: f64, (a, b)| far.max((a - b).abs()));
             there = next;
-            if moved < 1e-3 * NEAR {
+            if moved < 1e-3 * NEAR * size {
                 break;
             }
         }
@@ -243,7 +312,9 @@ impl Parts {
                 reached.push((u, to, unit));
             }
         }
+        let most = mem::replace(&mut self.options.max_steps, MOST_TUBES);
         let mut run = self.follow(&rights, control);
+        self.options.max_steps = most;
         let judged = self.judge((&[], &rights), &mut run, control);
         self.led.clear();
         if let Some(astray) = judged.astray {

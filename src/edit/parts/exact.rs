@@ -262,12 +262,12 @@ fn take_along(
     found: &mut Off,
     (from, to): (f64, f64),
     depth: u32,
-    within: f64,
+    within: [f64; 2],
     off: &impl Fn(Interval) -> Interval,
 ) {
     let there = off(hull(from, to));
     let half = 0.5 * (from + to);
-    let is_told = there.mag() <= within || there.mig() > within;
+    let is_told = there.mag() <= within[0] || there.mig() > within[1];
     // Where roundings are what is left nothing is told by halving.
     let is_rounding = there.wid() <= 1.5 * off(point(half)).wid();
     if is_told || is_rounding || depth == 0 || !(from < half && half < to) {

@@ -140,7 +140,7 @@ impl Parts {
         let mut all = redundant.chain(self.system.implied.iter().copied());
         let fixed = all.find(|&index| moves(&rights[index]))?;
         Some(format!(
-            "{} follows from the other constraints at this figure and cannot change by itself",
+            "{} follows from the other constraints at this figure and cannot change by itself, nor otherwise than they make it all along the way",
             self.name(fixed)
         ))
     }

@@ -115,8 +115,9 @@ impl Parts {
             return (Some(verdict(off.met)), None);
         };
         let Verdict::Missed { by } = verdict(missed) else {
-            // By no more than counts as met, or it could not be told.
-            return (Some(verdict(off.met.convex_hull(missed))), None);
+            // Nothing was looked at beyond.
+            let at_most = f64::INFINITY;
+            return (Some(Verdict::Undecided { at_most }), None);
         };
         let name = self.name(self.system.rows[self.redundant[redundant]].index);
         let words = format!(
@@ -134,10 +135,12 @@ impl Parts {
     }
 
     /// How far the sides of what was left out may be apart, in the homotopy's unit.
-    pub(super) fn within(&self, redundant: usize, rights: &[Vec<Real>]) -> f64 {
+    pub(super) fn within(&self, redundant: usize, rights: &[Vec<Real>]) -> [f64; 2] {
         let unit = self.scale(self.system.rows[self.redundant[redundant]].index);
         let right = self.right_until(redundant, 1.0, rights);
-        self.ruler(redundant).within(right * point(unit)) / unit
+        // A power of two.
+        let within = self.ruler(redundant).within(right * point(unit));
+        within.map(|off| off / unit)
     }
 
     /// The unknowns in what was left out.

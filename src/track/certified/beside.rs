@@ -63,8 +63,8 @@ impl Besides {
             self.piece.look(tube, half, half);
         }
         let (rest, told): (Vec<_>, Vec<_>) = found.into_iter().partition(|&(k, there)| {
-            let within = self.all[k].0.within;
-            let is_told = there.mag() <= within || there.mig() > within;
+            let [met, missed] = self.all[k].0.within;
+            let is_told = there.mag() <= met || there.mig() > missed;
             can_halve && !is_told && there.wid() > NARROW * off(self, k).wid()
         });
         let t = tube.time().range(a, b);
@@ -153,7 +153,7 @@ mod tests {
                 segments: Vec::new(),
                 beside: beside
                     .iter()
-                    .map(|right| (equation(vec![linear], right), 5e-4))
+                    .map(|right| (equation(vec![linear], right), [5e-4; 2]))
                     .collect(),
             });
             let options = Options {
