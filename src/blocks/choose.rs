@@ -33,8 +33,8 @@ pub(crate) const LAST: u8 = u8::MAX;
 
 impl Choice {
     /// Looks at a system where its unknowns have these values, coordinates and lengths in a unit in which the figure
-    /// is of size about 1. `later`: unknowns that shall rather be free than others, the more the higher the number, up to [`FREE_FIRST`]. `first`: of rows in which as
-    /// much is new, up to `factor`, those with less of it are rather used than those with more, and of these the earlier.
+    /// is of size about 1. `later`: which unknowns shall rather be free than others, the more the higher the number, up to
+    /// [`FREE_FIRST`]. `first`: of rows in which as much is new, up to `factor`, those with less of it are rather used than those with more, and of these the earlier.
     pub fn new(
         system: &System,
         at: &[f64],

@@ -166,15 +166,10 @@ impl Cut {
         let unit = typical_length(&problem);
         let at = system.sketch(unit);
         let coordinates: BTreeSet<usize> = system.coordinates.iter().copied().collect();
+        let later = |u: usize| coordinates.contains(&u).into();
         // What is fixed is left out last, dimensions after what has no number.
         let kept = |row: usize| keep(&problem, lowered.owners[system.rows[row].index]);
-        let mut choice = Choice::new(
-            &system,
-            &at,
-            |u| coordinates.contains(&u).into(),
-            kept,
-            COARSE,
-        );
+        let mut choice = Choice::new(&system, &at, later, kept, COARSE);
         let equations = &lowered.tail.equations;
         let rows = system.rows.iter();
         let structural = rows.map(|row| !owner_is_dimension(lowered.owners[row.index]));
@@ -186,13 +181,7 @@ impl Cut {
             let owner = |row: usize| lowered.owners[system.rows[row].index];
             let mut place = Singular::new(&problem, &system, &rows, owner);
             if let Some(off) = off {
-                choice = Choice::new(
-                    &system,
-                    &off,
-                    |u| coordinates.contains(&u).into(),
-                    kept,
-                    COARSE,
-                );
+                choice = Choice::new(&system, &off, later, kept, COARSE);
                 place.moved = Some(system.moved(&off, problem.dimension, unit));
                 drawn = Some(system.values.clone());
                 moved_rights = system.set_off(&off, unit, |index| equations[index].target());

@@ -98,7 +98,16 @@ impl<'a> Floats<'a> {
         if rows.is_empty() {
             return Some(at);
         }
-        let at = nearest_zero(at, 1e-10, |at| self.linearise(rows, at))?;
+        self.zero(at, |at| self.linearise(rows, at))
+    }
+
+    /// The same of rows that are linearised so.
+    pub fn zero(
+        &self,
+        at: Vec<f64>,
+        linearise: impl Fn(&[f64]) -> (DMatrix<f64>, DVector<f64>),
+    ) -> Option<Vec<f64>> {
+        let at = nearest_zero(at, 1e-10, linearise)?;
         let all = self.system.unknowns.iter().zip(&at);
         let mut positive = all.filter(|(unknown, _)| unknown.role == Role::Positive);
         positive.all(|(_, &x)| x > 0.0).then_some(at)

@@ -7,7 +7,9 @@ use super::take::check_format;
 use super::verify::check_written;
 use super::{BAD_INPUT, CLOSED, LIMIT, PASSES, STOPPED, input, interrupt, serve};
 use krawl::certificate::Writer;
-use krawl::edit::{Asked, Decomposition, Drag, Edited, Ending, OpenError, Session, Setting};
+use krawl::edit::{
+    Asked, Astray, Decomposition, Drag, Edited, Ending, OpenError, Session, Setting,
+};
 use krawl::import::Format;
 use krawl::problem::Problem;
 use krawl::remarks::moves;
@@ -34,8 +36,8 @@ Examples:
   krawl edit problems/sketches/bracket.slvs --set c011=52 --out edited.slvs
 
 Exit codes: 0 reached: the figure printed is the one and only continuation; 3 limit: the dimensions can
-go so far and no further, or points that are dragged so near and no nearer; 4 passes: branches of figures seem to meet; 1 stopped: nothing could be proved
-from some point on; 2 bad input, or results that could not be written.")]
+go so far and no further, or a point that is dragged did not come all the way; 4 passes: branches of figures
+seem to meet; 1 stopped: nothing could be proved from some point on; 2 bad input, or results that could not be written.")]
 pub struct Arguments {
     /// The problem file (TOML), or a sketch of SolveSpace (.slvs) or FreeCAD (.FCStd)
     file: PathBuf,
@@ -161,7 +163,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         Setting::check(&problem, &settings).map_err(|e| in_file(&e))?;
     }
     let warnings = loaded.warnings(&given);
-    let mut account = None;
+    let (mut account, mut astray) = (None, None);
     let mut led = settings.clone();
     let mut cert = arguments.cert.as_deref();
     if cert.is_some() {
@@ -172,6 +174,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             };
             let edited = session.probe(&settings, &mut control);
             account = Some(edited.account.clone());
+            astray = edited.astray.as_ref().map(Astray::in_words);
             reason(&edited).map(str::to_owned)
         })? {
             Some((whole, decomposition)) => {
@@ -213,6 +216,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     };
     if let (Some(account), true) = (account, cert.is_some()) {
         edited.account = account;
+        edited.switched_on.extend(astray);
     }
     let moved = session.moved();
 

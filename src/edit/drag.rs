@@ -18,7 +18,7 @@ pub struct Drag {
 pub struct Dragged {
     /// How far each is from where it was wanted.
     pub places: Vec<(Drag, Interval)>,
-    /// The names of the coordinates that were led, each straight from where it was to where it is on every leg of the way.
+    /// The names of the coordinates that were led, on each leg of the way straight from where they were to where they are at its end.
     pub led: Vec<String>,
     /// The legs of the way.
     pub legs: usize,

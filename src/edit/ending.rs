@@ -96,8 +96,7 @@ pub struct Edited {
     /// Where the old figure was singular itself, so that no continuation is the one: what was so about it, and how far it was moved
     /// off that place before it was led to the new dimensions.
     pub singular: Option<Singular>,
-    /// Where on the way a figure first misses a constraint that was left out, proved, although where the edit ended it is not known to be
-    /// missed.
+    /// Where on the way figures first miss a constraint that was left out, proved, if any do: the figure where the edit ended may meet it.
     pub astray: Option<Astray>,
     /// Of points that were dragged: where they are.
     pub dragged: Option<Dragged>,
@@ -128,13 +127,27 @@ impl Keep {
     }
 }
 
-/// A place on the way from where on figures are none of the problem.
+/// The first place on the way where figures miss a constraint that was left out, and so are none of the problem.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Astray {
     /// Bounds on t there.
     pub t: (f64, f64),
-    /// Which constraint is missed there, and by how much.
+    /// The values there of the dimensions that are edited, in their order.
+    pub values: Vec<Interval>,
+    /// Which constraint is missed, and by how much.
     pub stop: Stop,
+    /// What the way up to there is proved of.
+    pub account: Account,
+}
+
+impl Astray {
+    /// As a remark on an edit whose figure meets all constraints, past this place.
+    pub fn in_words(&self) -> String {
+        format!(
+            "other figures on the way: at t = {:.6}, {}",
+            self.t.1, self.stop
+        )
+    }
 }
 
 impl Ending {

@@ -1,11 +1,11 @@
 //! How far each dimension can go alone.
 
-use super::ending::{Astray, Edited, Ending, Keep, Limit};
+use super::ending::{Edited, Ending, Keep, Limit};
 use super::setting::measure;
 use super::{Session, Setting};
 use crate::blocks::Account;
 use crate::constraint::Measure;
-use crate::interval::{Interval, hull};
+use crate::interval::Interval;
 use crate::problem::{Decimal, Target};
 use crate::remarks::detour;
 use crate::track::{Control, StopKind};
@@ -146,6 +146,10 @@ impl Session {
             account,
             ..
         } = self.follow_to(slice::from_ref(&setting), Keep::Never, control);
+        if let Some(astray) = astray {
+            let end = End::Unknown(astray.values[0], astray.stop.text);
+            return (end, self.points(), astray.account);
+        }
         let is_contradicted =
             matches!(&ending, Ending::Stopped(stop) if stop.kind == StopKind::Contradiction);
         // What a figure misses that is none is not said of the old one, which is printed in its place.
@@ -153,10 +157,6 @@ impl Session {
             true => self.account(),
             false => account,
         };
-        if let Some(Astray { t, stop }) = astray {
-            let value = setting.between(self.problem(), hull(t.0.max(0.0), t.1.min(1.0)));
-            return (End::Unknown(value, stop.text), self.points(), account);
-        }
         let value = dimensions[0].value;
         let end = match ending {
             Ending::Reached => End::Beyond(value),

@@ -1,16 +1,16 @@
 //! A figure and the edits of it.
 
 use super::drag::Drag;
-use super::ending::{Astray, Edited, Ending, Keep, Orientations};
+use super::ending::{Edited, Ending, Keep, Orientations};
 use super::open::{Moved, OpenError};
 use super::parts::Parts;
 use super::setting::Setting;
 use super::whole::Whole;
 use crate::blocks::{Account, Singular};
-use crate::interval::{Interval, hull};
+use crate::interval::Interval;
 use crate::places::Each as _;
 use crate::problem::Problem;
-use crate::track::{Control, Options, StartError};
+use crate::track::{Control, Options, StartError, StopKind};
 
 /// A figure that meets its dimensions, and what follows edits of it; set up once for all of them.
 ///
@@ -195,37 +195,33 @@ impl Session {
             Way::Whole(whole) => whole.edit_with(settings, control),
             Way::Parts(parts) => parts.edit(settings, Keep::Always, control),
         };
-        self.looked_at(edited, settings, false)
+        self.looked_at(edited, false)
     }
 
-    /// A way that goes on past a figure that misses what was left out ends there, where it leads to a limit, which is one of the figure
-    /// only if the figures on the way there are; and `if_reached`, where all of them are asked for.
-    fn looked_at(&self, edited: Edited, settings: &[Setting], if_reached: bool) -> Edited {
-        let is_asked = match edited.ending {
-            Ending::Limit(_) => true,
-            Ending::Reached => if_reached,
-            _ => false,
+    /// An edit that goes on past figures that miss what was left out. It ends before them, unless it is reached: that figure meets all
+    /// constraints, and what was on the way is said, or, `if_reached`, it ends before them too.
+    fn looked_at(&self, mut edited: Edited, if_reached: bool) -> Edited {
+        let is_told = match &edited.ending {
+            Ending::Reached => !if_reached,
+            Ending::Stopped(stop) => stop.kind == StopKind::Contradiction,
+            Ending::Limit(_) | Ending::Passes(_) => false,
         };
-        let Some(Astray { t, stop }) = edited.astray.clone() else {
+        let Some(astray) = edited.astray.clone() else {
             return edited;
         };
-        if !is_asked {
-            let remark = format!("other figures on the way: at t = {:.6}, {stop}", t.1);
-            let mut edited = edited;
-            edited.switched_on.push(remark);
+        if is_told {
+            edited.switched_on.push(astray.in_words());
             return edited;
         }
-        let mut dimensions = edited.dimensions.clone();
-        let there = hull(t.0.max(0.0), t.1.min(1.0));
-        for (dimension, setting) in dimensions.iter_mut().zip(settings) {
-            dimension.value = setting.between(self.problem(), there);
+        for (dimension, value) in edited.dimensions.iter_mut().zip(astray.values) {
+            dimension.value = value;
         }
         Edited {
-            ending: Ending::Stopped(stop),
-            t,
-            dimensions,
+            ending: Ending::Stopped(astray.stop),
+            t: astray.t,
             points: self.points(),
             orientations: Orientations::default(),
+            account: astray.account,
             ..edited
         }
     }
@@ -234,7 +230,7 @@ impl Session {
     /// singular itself, which has none, goes to one that is near.
     pub fn lead(&mut self, settings: &[Setting], control: &mut Control) -> Edited {
         let edited = self.follow_to(settings, Keep::OnTheWay, control);
-        self.looked_at(edited, settings, true)
+        self.looked_at(edited, true)
     }
 
     /// Changes dimensions by a path of figures, and where there is none, in no other way, unlike [`Session::edit`] at figures that are
@@ -258,7 +254,7 @@ impl Session {
             Way::Whole(whole) => whole.probe(settings, control),
             Way::Parts(parts) => parts.edit(settings, Keep::Never, control),
         };
-        self.looked_at(edited, settings, false)
+        self.looked_at(edited, false)
     }
 }
 

@@ -60,8 +60,8 @@ fn following(
 }
 
 impl Asked {
-    /// Settings of a problem, each the name of a dimension or of a parameter and its new value. What is computed from parameters follows. An angle in the plane may be set to any number of degrees: 250
-    /// and −110 are the same place, and the way there goes up or down. It is counted in the sense in which it is drawn.
+    /// Settings of a problem, each the name of a dimension or of a parameter and its new value. What is computed from parameters follows. An
+    /// angle in the plane may be set to any number of degrees: 250 and −110 are the same place, and the way there goes up or down. It is counted in the sense in which it is drawn.
     ///
     /// # Errors
     /// As [`Setting::named`].

@@ -2,6 +2,7 @@
 
 use super::Interval;
 use super::vector::dot;
+use crate::equations::Ring;
 use crate::places::{Each as _, array};
 use std::ops::{Add, Mul, Neg, Sub};
 
@@ -62,6 +63,12 @@ impl Mul for Along {
             value: self.value * other.value,
             slope: self.slope * other.value + self.value * other.slope,
         }
+    }
+}
+
+impl Ring for Along {
+    fn whole(number: i32) -> Self {
+        Along::constant(number.into())
     }
 }
 

@@ -128,12 +128,10 @@ impl Reader<'_> {
         loop {
             if self.take('+') {
                 let by = self.product()?;
-                self.fits(&by, 1)?;
-                sum += by;
+                sum = self.checked(sum + by)?;
             } else if self.take('-') {
                 let by = self.product()?;
-                self.fits(&by, 1)?;
-                sum -= by;
+                sum = self.checked(sum - by)?;
             } else {
                 return Ok(sum);
             }
@@ -145,17 +143,13 @@ impl Reader<'_> {
         loop {
             if self.take('*') {
                 let by = self.signed()?;
-                self.fits(&product, 1)?;
-                self.fits(&by, 1)?;
-                product *= by;
+                product = self.checked(product * by)?;
             } else if self.take('/') {
                 let by = self.signed()?;
                 if by.is_zero() {
                     return Err(format!("`{}` divides by zero", self.text));
                 }
-                self.fits(&product, 1)?;
-                self.fits(&by, 1)?;
-                product /= by;
+                product = self.checked(product / by)?;
             } else {
                 return Ok(product);
             }
@@ -180,6 +174,11 @@ impl Reader<'_> {
         };
         self.depth -= 1;
         Ok(value)
+    }
+
+    /// A number, if it is no larger than numbers may be.
+    fn checked(&self, number: BigRational) -> Result<BigRational, String> {
+        self.fits(&number, 1).map(|()| number)
     }
 
     /// Whether so many factors like this one are no larger than numbers may be.

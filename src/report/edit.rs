@@ -164,10 +164,14 @@ fn dragged_in_words(problem: &Problem, edited: &Edited, dragged: &Dragged) -> St
         (true, [_]) => format!("{names} is where it was wanted"),
         (true, _) => format!("{names} are where they were wanted"),
         (false, [(_, off)]) => {
-            format!("{names} is {} from where it was wanted", short(*off))
+            format!(
+                "{names} is {} from where it was wanted",
+                certain_digits(*off)
+            )
         }
         (false, places) => {
-            let off: Vec<String> = places.iter().map(|(_, off)| short(*off)).collect();
+            let off = places.iter().map(|(_, off)| certain_digits(*off));
+            let off: Vec<String> = off.collect();
             format!(
                 "{names} are {} from where they were wanted",
                 list(&off, LISTED)
@@ -177,31 +181,27 @@ fn dragged_in_words(problem: &Problem, edited: &Edited, dragged: &Dragged) -> St
     let why = match (dragged.is_there, &dragged.stop) {
         (true, _) => String::new(),
         (false, Some(stop)) => format!(" No way further was found: {stop}."),
-        (false, None) => " No figure was found that is nearer to that.".to_owned(),
+        (false, None) => " No figure was found that is noticeably nearer to that.".to_owned(),
     };
     let account = &edited.account;
     let led = match dragged.led.is_empty() {
         true => "the figure stands where it stood".to_owned(),
         false => {
-            let legs = match dragged.legs {
-                1 => String::new(),
-                legs => format!(", in {legs} legs"),
+            let how = match dragged.legs {
+                1 => "straight".to_owned(),
+                legs => format!("in {legs} straight legs"),
             };
-            let scope = account.scope();
-            let scope = if scope.is_empty() {
-                scope
-            } else {
-                format!(", {scope}")
+            let (are, they) = match dragged.led.len() {
+                1 => ("is", "it is"),
+                _ => ("are", "they are"),
+            };
+            let scope = match account.scope() {
+                scope if scope.is_empty() => scope,
+                scope => format!(", {scope}"),
             };
             format!(
-                "the figure is the one and only continuation of the old one as {} {} led straight to where {}{legs}{scope}",
+                "the figure is the one and only continuation of the old one as {} {are} led {how} to where {they} now{scope}",
                 list(&dragged.led, LISTED),
-                if dragged.led.len() == 1 { "is" } else { "are" },
-                if dragged.led.len() == 1 {
-                    "it is"
-                } else {
-                    "they are"
-                },
             )
         }
     };

@@ -106,34 +106,73 @@ pub struct Kept {
 }
 
 /// How far the figures of an arc are off an equation that is not one of its own, in the homotopy's unit.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Off {
-    /// By what its left-hand side is more than its right-hand side: an enclosure for all figures up to there where it is missed. Empty of
-    /// none.
-    pub met: Interval,
-    /// Where it is first proved to be off by so much that it is missed, by [`Beside::within`](crate::system::Beside::within): by what there, and a
-    /// range of t. Nothing is known of the figures beyond.
+    /// By what its left-hand side is more than its right-hand side, for all figures up to the last that is known to meet it.
+    met: Option<Interval>,
+    /// The same of figures behind these, which may meet or miss it, and the t of the first.
+    doubtful: Option<(Interval, f64)>,
+    /// The first piece of the way that is proved to miss it ([`Beside::within`](crate::system::Beside::within)): by what, and a range of t in
+    /// which the first figure is that does. Nothing is known of the figures beyond.
     pub missed: Option<(Interval, (f64, f64))>,
 }
 
-impl Default for Off {
-    fn default() -> Self {
-        Off {
-            met: Interval::EMPTY,
-            missed: None,
-        }
-    }
-}
+/// A piece of the way is not halved more often to tell what its figures are off by.
+const HALVED: u32 = 50;
+/// Nor where what is known of it is no more than so many times as wide as what is known of one figure.
+const NARROW: f64 = 1.5;
 
 impl Off {
-    /// Notes what it is off by on a piece of the way, the next one.
-    pub fn take(&mut self, off: Interval, within: [f64; 2], t: (f64, f64)) {
+    /// Looks at the next piece of the way, between two parameters, and its halves, until it can be told whether they meet it. `look`: what
+    /// figures between two parameters are off by, and a range of t that holds theirs.
+    pub fn follow(
+        &mut self,
+        between: (f64, f64),
+        within: [f64; 2],
+        look: &mut impl FnMut((f64, f64)) -> (Interval, (f64, f64)),
+    ) {
+        self.follow_halves(between, HALVED, within, look);
+    }
+
+    fn follow_halves(
+        &mut self,
+        (a, b): (f64, f64),
+        depth: u32,
+        [met, missed]: [f64; 2],
+        look: &mut impl FnMut((f64, f64)) -> (Interval, (f64, f64)),
+    ) {
         if self.missed.is_some() {
             return;
         }
-        match off.mig() > within[1] {
-            true => self.missed = Some((off, t)),
-            false => self.met = self.met.convex_hull(off),
+        let (off, t) = look((a, b));
+        let half = 0.5 * (a + b);
+        let can_halve = depth > 0 && a < half && half < b;
+        if off.mag() <= met {
+            self.meet(off);
+        } else if off.mig() > missed {
+            let since = self.doubtful.take().map_or(t.0, |(_, since)| since);
+            self.missed = Some((off, (since, t.1)));
+        } else if can_halve && off.wid() > NARROW * look((half, half)).0.wid() {
+            self.follow_halves((a, half), depth - 1, [met, missed], look);
+            self.follow_halves((half, b), depth - 1, [met, missed], look);
+        } else {
+            let (before, since) = self.doubtful.unwrap_or((off, t.0));
+            self.doubtful = Some((before.convex_hull(off), since));
+        }
+    }
+
+    /// Figures up to here are all off by no more than is known of them.
+    fn meet(&mut self, off: Interval) {
+        let all = [self.met, self.doubtful.take().map(|(before, _)| before)];
+        let all = all.into_iter().flatten();
+        self.met = Some(all.fold(off, |all, before| all.convex_hull(before)));
+    }
+
+    /// By what all figures are off, or all before the first that may be one that misses it. `None`: there is none.
+    pub fn until(&self) -> Option<Interval> {
+        match (self.met, self.doubtful) {
+            (Some(met), Some((doubtful, _))) => Some(met.convex_hull(doubtful)),
+            (met, doubtful) => met.or(doubtful.map(|(off, _)| off)),
         }
     }
 }

@@ -409,7 +409,7 @@ fn what_grows_past_its_tolerance_on_the_way_is_not_met_there() {
     assert!(code == 1 && said.contains("miss `Q-P`"), "{said}");
     let (said, _) = run("limits", &limit, &[]);
     assert!(
-        said.contains("x:P grows to -1.4") && said.contains("at least: from there on"),
+        said.contains("x:P grows to -1.4") && said.contains("at least: there figures"),
         "{said}"
     );
 }

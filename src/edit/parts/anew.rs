@@ -134,14 +134,9 @@ impl Parts {
             owner => keep(&self.problem, owner),
         };
         let coordinates: BTreeSet<usize> = self.system.coordinates.iter().copied().collect();
-        let at: Vec<f64> = self.figure.iter().map(|known| known.centre).collect();
-        let choice = Choice::new(
-            &self.system,
-            &at,
-            |u| coordinates.contains(&u).into(),
-            first,
-            FINE,
-        );
+        let at = self.centres();
+        let later = |u: usize| coordinates.contains(&u).into();
+        let choice = Choice::new(&self.system, &at, later, first, FINE);
         let new: Vec<usize> = {
             let is_new = |row: &&usize| self.redundant.contains(row);
             choice.used.iter().filter(is_new).copied().collect()
@@ -211,8 +206,13 @@ impl Parts {
         if let Some(astray) = &mut edited.astray {
             astray.t = whole(astray.t);
         }
-        if let Some(astray) = legs.iter().find_map(|leg| leg.astray.clone()) {
-            edited.astray = Some(astray);
+        let gone = legs.iter().position(|leg| leg.astray.is_some());
+        if let Some(leg) = gone {
+            edited.astray = legs[leg].astray.clone();
+        }
+        if let Some(astray) = &mut edited.astray {
+            let before = legs[..gone.unwrap_or(legs.len())].iter().rev();
+            before.for_each(|leg| astray.account.follow_on(&leg.account));
         }
         edited.t = whole(last.t);
         for (dimension, before) in edited.dimensions.iter_mut().zip(&first.dimensions) {

@@ -7,11 +7,10 @@
 use super::left_out::at_rest_all;
 use super::{End, Known, Parts, Run};
 use crate::blocks::{Choice, FINE, FREE_FIRST, Floats, keep};
-use crate::constraint::{Equation, Role, try_lower_all};
+use crate::constraint::{Equation, try_lower_all};
 use crate::edit::drag::{Drag, Dragged};
 use crate::edit::ending::Edited;
 use crate::interval::{Real, enclose, point};
-use crate::linalg::nearest_zero;
 use crate::places::{Each as _, array};
 use crate::problem::Decimal;
 use crate::track::{Control, Stop, StopKind};
@@ -19,9 +18,9 @@ use std::collections::BTreeSet;
 use std::mem;
 use std::time::Instant;
 
-/// Legs of one way.
+/// So often a leg is tried on one way.
 const MOST_LEGS: usize = 40;
-/// Tubes of one.
+/// Tubes of a leg.
 const MOST_TUBES: usize = 300;
 /// Where points are not where they are wanted a leg that brings them nearer by less than this part of what is left is the last.
 const LEAST_GAIN: f64 = 1e-6;
@@ -29,8 +28,13 @@ const LEAST_GAIN: f64 = 1e-6;
 const LEAST_PART: f64 = 1e-3;
 /// A figure that is nearer than this to the one that is wanted is it, as a part of its size.
 const NEAR: f64 = 1e-9;
-/// So often points are put to where they are wanted, and the figure is corrected, to find the one nearest to that.
+/// So often points are put to where they are wanted, and the figure is corrected, to find the one nearest to that; and not once more where that
+/// brings them nearer by less than this part of what is left.
 const ROUNDS: usize = 60;
+const LEAST_ROUND: f64 = 1e-12;
+
+/// A way that ends so near to the figure that is wanted ends beside a dead centre, as far as one can see: as a part of its size.
+const BESIDE: f64 = 1e-3;
 
 /// A point is where it was wanted if it is no further from there than this, as a part of the figure's size.
 const THERE: f64 = 1e-9;
@@ -99,10 +103,9 @@ impl Parts {
                 return Err(Stop::new(StopKind::Interrupted, "it was interrupted"));
             }
             let away = self.away(&wanted);
-            let near = self.nearest(&equations, (&wanted, size), part);
-            let far = near
-                .as_ref()
-                .map_or(f64::INFINITY, |(near, _)| self.far_from(near));
+            let near = self.nearest(&equations, &wanted, part);
+            let far = near.as_ref();
+            let far = far.map_or(f64::INFINITY, |(near, _)| self.far_from(near));
             if far < NEAR * size && part == 1.0 {
                 return Ok(());
             }
@@ -141,8 +144,10 @@ impl Parts {
                     part = f64::min(2.0 * part, 1.0);
                 }
                 None if part > LEAST_PART => part *= 0.5,
-                // Beside a dead centre there is no more to be gained.
-                None if far < 1e-3 * size => return Ok(()),
+                None if far < BESIDE * size => {
+                    let words = "the figure seems to be all but at a dead centre";
+                    return Err(Stop::new(StopKind::Singular, words));
+                }
                 None => {
                     return Err(
                         stop.unwrap_or_else(|| undecided("no figure near that place was found"))
@@ -157,30 +162,24 @@ impl Parts {
         }
     }
 
-    /// The size of the figure and of the places where points are wanted: how far any of them is from another at most along an axis, or, where
-    /// all are in one place, from the origin.
+    /// The size of the figure and of the places where points are wanted: how far any of them is from the first along an axis, or, where all are in
+    /// one place, from the origin.
     fn size(&self, drags: &[Drag]) -> f64 {
         let points = self.points();
-        let of_points = points.iter().map(|p| p.each(|x| x.mid()));
+        let points = points.iter().map(|p| p.each(|x| x.mid()));
         let wanted = drags
             .iter()
             .map(|drag| array(|k| drag.to.get(k).map_or(0.0, Decimal::to_f64)));
-        let all: Vec<[f64; 3]> = of_points.chain(wanted).collect();
-        let along = |axis: usize| {
-            let of = all.iter().map(|p| p[axis]);
-            let (low, high) = of.fold(
-                (f64::INFINITY, f64::NEG_INFINITY),
-                |(low, high): (f64, f64), x| (low.min(x), high.max(x)),
-            );
-            high - low
-        };
-        let extent = (0..3).map(along).fold(0.0, f64::max);
-        match extent > 0.0 {
-            true => extent,
-            false => all
+        let all: Vec<[f64; 3]> = points.chain(wanted).collect();
+        let far = |from: [f64; 3]| {
+            let off = all
                 .iter()
-                .flatten()
-                .fold(self.unit, |far, x| far.max(x.abs())),
+                .flat_map(|p| (0..3).map(move |k| (p[k] - from[k]).abs()));
+            off.fold(0.0, f64::max)
+        };
+        match far(all[0]) {
+            0.0 => far([0.0; 3]).max(self.unit),
+            size => size,
         }
     }
 
@@ -212,17 +211,17 @@ impl Parts {
         all.collect()
     }
 
-    /// Of the figures that meet all constraints one, in floats, that has points this part of the way to where they are wanted, and whether there is one; or else one
-    /// that has them nearest to that, as far as it is found.
+    /// A figure that meets all constraints, in floats, and has points this part of the way to where they are wanted, and whether one was found;
+    /// or else one that has them nearer to that than they are, as near as is found.
     fn nearest(
         &self,
         equations: &[Equation],
-        (wanted, size): (&[Wanted], f64),
+        wanted: &[Wanted],
         part: f64,
     ) -> Option<(Vec<f64>, bool)> {
         let floats = Floats::new(&self.system, equations, self.unit);
         let rows: Vec<usize> = (0..self.system.rows.len()).collect();
-        let at: Vec<f64> = self.figure.iter().map(|known| known.centre).collect();
+        let at = self.centres();
         let goal = |w: &Wanted| at[w.unknown] + part * (w.near - at[w.unknown]);
         let put = |from: &[f64], part: f64| {
             let mut there = from.to_vec();
@@ -231,7 +230,7 @@ impl Parts {
             }
             there
         };
-        let exact = nearest_zero(put(&at, 1.0), 1e-10, |x| {
+        let exact = floats.zero(put(&at, 1.0), |x| {
             let (jacobian, off) = floats.linearise(&rows, x);
             let (m, more) = (rows.len(), wanted.len());
             let (mut jacobian, mut off) = (
@@ -244,11 +243,7 @@ impl Parts {
             }
             (jacobian, off)
         });
-        let is_positive = |at: &Vec<f64>| {
-            let mut all = self.system.unknowns.iter().zip(at);
-            all.all(|(unknown, &x)| unknown.role != Role::Positive || x > 0.0)
-        };
-        if let Some(there) = exact.filter(is_positive) {
+        if let Some(there) = exact {
             return Some((there, true));
         }
         let off = |at: &[f64]| {
@@ -260,16 +255,11 @@ impl Parts {
             // From too far away no figure is found.
             let parts = std::iter::successors(Some(1.0), |part| Some(0.5 * part));
             let mut parts = parts.take_while(|&part| part > LEAST_PART);
-            let nearer = |next: &Vec<f64>| off(next) < off(&there);
+            let nearer = |next: &Vec<f64>| off(next) < (1.0 - LEAST_ROUND) * off(&there);
             let next = parts.find_map(|part| floats.meet(&rows, put(&there, part)).filter(nearer));
-            let Some(next) = next else {
-                break;
-            };
-            let moved = there.iter().zip(&next);
-            let moved = moved.fold(0.0, |far: f64, (a, b)| far.max((a - b).abs()));
-            there = next;
-            if moved < 1e-3 * NEAR * size {
-                break;
+            match next {
+                Some(next) => there = next,
+                None => break,
             }
         }
         Some((there, false))
@@ -287,7 +277,7 @@ impl Parts {
         let undecided = |why: &str| Stop::new(StopKind::Undecided, why);
         let rights: Vec<Vec<Real>> = equations.iter().map(|e| e.right.clone()).collect();
         let rights = at_rest_all(&rights);
-        let at: Vec<f64> = self.figure.iter().map(|known| known.centre).collect();
+        let at = self.centres();
         let coordinates: BTreeSet<usize> = self.system.coordinates.iter().copied().collect();
         let rank = |u: usize| match wanted.iter().any(|w| w.unknown == u) {
             true => FREE_FIRST,
@@ -300,8 +290,7 @@ impl Parts {
         let (mut names, mut reached) = (Vec::new(), Vec::new());
         for u in self.free.clone() {
             let unit = self.unit.powi(self.system.unknowns[u].power);
-            let exact = exact.iter().filter(|_| step == 1.0);
-            let to = match exact.into_iter().find(|w| w.unknown == u) {
+            let to = match exact.iter().find(|w| w.unknown == u && step == 1.0) {
                 Some(w) => w.value.clone(),
                 None => Real::within(point(at[u] + step * (near[u] - at[u])) * point(unit)),
             };
@@ -332,7 +321,8 @@ impl Parts {
         };
         self.figure = figure;
         for (u, to, unit) in reached {
-            // Between the two there is no more than a radius of what it was.
+            // The number that was led there is off `to` by no more than twice what was not known of it before; the box that was reached holds
+            // one figure for each such number, and these are one family, so that for `to` continues the old one as well.
             self.figure[u] = Known::new(to.enclose() * point(1.0 / unit));
             self.system.values[u] = to;
         }

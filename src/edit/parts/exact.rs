@@ -2,14 +2,14 @@
 
 use super::{Known, Parts, Used};
 use crate::constraint::{Entry, Nonzero};
-use crate::equations::{Form, Ring};
+use crate::equations::{Form, Ring as _};
+use crate::interval::along::{Along, Quantifiable as _};
 use crate::interval::{Interval, Real, hull, point};
 use crate::places::array;
 use crate::system::{Extent, Segment, orientation};
 use crate::track::arc::{Kept, Off, Orientation};
 use crate::track::{Stop, StopKind};
 use std::collections::HashMap;
-use std::ops::{Add, Mul, Sub};
 
 impl Parts {
     /// The polynomials of moving unknowns that are known exactly.
@@ -235,98 +235,41 @@ impl Parts {
         let alone = looked_at.filter(|&k| self.unknowns_of(k).all(is_exact));
         let off = alone.map(|k| {
             let row = &self.system.rows[self.redundant[k]];
-            let at = |entry: Option<usize>| match entry {
-                None => Polynomial::default(),
-                Some(u) => Polynomial(match paths.get(&u) {
-                    Some(path) => path.clone(),
-                    None => vec![self.figure[u].enclosure()],
-                }),
+            let right = enclosed(&rights[row.index], self.scale(row.index));
+            let off = |time: Interval| {
+                let at = |entry: Option<usize>| match entry.map(|u| (u, paths.get(&u))) {
+                    None => Along::whole(0),
+                    Some((_, Some(path))) => along(path, time),
+                    Some((u, None)) => along(&[self.figure[u].enclosure()], time),
+                };
+                let left = row
+                    .products
+                    .iter()
+                    .map(|p| Along::constant(0.5 * f64::from(p.factor)) * p.value(at));
+                left.fold(Along::whole(0), |sum, term| sum + term) - along(&right, time)
             };
-            let left = row.products.iter().map(|p| {
-                let half = Polynomial(vec![point(0.5 * f64::from(p.factor))]);
-                half * p.value(at)
-            });
-            let left = left.fold(Polynomial::default(), |sum, term| sum + term);
-            let off = left - Polynomial(enclosed(&rights[row.index], self.scale(row.index)));
-            let (within, mut found) = (self.within(k, rights), Off::default());
-            let off = |time: Interval| value_at(&off.0, time);
-            take_along(&mut found, (0.0, upto.sup()), DEEP, within, &off);
+            // The mean value theorem.
+            let mut look = |(a, b): (f64, f64)| {
+                let middle = point(0.5 * (a + b));
+                let (all, there) = (off(hull(a, b)), off(middle).value);
+                let by_slope = there + all.slope * (hull(a, b) - middle);
+                (all.value.intersection(by_slope), (a, b))
+            };
+            let mut found = Off::default();
+            found.follow((0.0, upto.sup()), self.within(k, rights), &mut look);
             (k, found)
         });
         off.collect()
     }
 }
 
-/// Notes what figures are off by for a range of times, in pieces as short as it takes to tell whether they are met.
-fn take_along(
-    found: &mut Off,
-    (from, to): (f64, f64),
-    depth: u32,
-    within: [f64; 2],
-    off: &impl Fn(Interval) -> Interval,
-) {
-    let there = off(hull(from, to));
-    let half = 0.5 * (from + to);
-    let is_told = there.mag() <= within[0] || there.mig() > within[1];
-    // Where roundings are what is left nothing is told by halving.
-    let is_rounding = there.wid() <= 1.5 * off(point(half)).wid();
-    if is_told || is_rounding || depth == 0 || !(from < half && half < to) {
-        found.take(there, within, (from, to));
-        return;
-    }
-    take_along(found, (from, half), depth - 1, within, off);
-    take_along(found, (half, to), depth - 1, within, off);
-}
-
-/// A polynomial in t by enclosures of its coefficients, that of t⁰ first.
-#[derive(Debug, Clone, Default)]
-struct Polynomial(Vec<Interval>);
-
-impl Polynomial {
-    /// The sum with a multiple of another one, which is 1 or −1 times it.
-    fn plus(mut self, other: Self, sign: f64) -> Self {
-        let longer = self.0.len().max(other.0.len());
-        self.0.resize(longer, point(0.0));
-        for (own, other) in self.0.iter_mut().zip(other.0) {
-            *own += point(sign) * other;
-        }
-        self
-    }
-}
-
-impl Ring for Polynomial {
-    fn whole(number: i32) -> Self {
-        Polynomial(vec![point(number.into())])
-    }
-}
-
-impl Add for Polynomial {
-    type Output = Self;
-
-    fn add(self, other: Self) -> Self {
-        self.plus(other, 1.0)
-    }
-}
-
-impl Sub for Polynomial {
-    type Output = Self;
-
-    fn sub(self, other: Self) -> Self {
-        self.plus(other, -1.0)
-    }
-}
-
-impl Mul for Polynomial {
-    type Output = Self;
-
-    fn mul(self, other: Self) -> Self {
-        let mut out = vec![point(0.0); (self.0.len() + other.0.len()).saturating_sub(1)];
-        for (i, a) in self.0.iter().enumerate() {
-            for (k, b) in other.0.iter().enumerate() {
-                out[i + k] += *a * *b;
-            }
-        }
-        Polynomial(out)
+/// A polynomial, by enclosures of its coefficients, and its slope for a range of times.
+fn along(coefficients: &[Interval], time: Interval) -> Along {
+    let slopes = coefficients.iter().enumerate().skip(1);
+    let slopes: Vec<Interval> = slopes.map(|(k, c)| point(k as f64) * *c).collect();
+    Along {
+        value: value_at(coefficients, time),
+        slope: value_at(&slopes, time),
     }
 }
 

@@ -10,6 +10,7 @@ use crate::track::arc::{ArcEnd, ArcRun, Figure, Fold};
 use crate::track::certified::arcs;
 use crate::track::{Control, LARGEST_SQUARE, Stop, StopKind};
 use std::collections::{BTreeSet, HashMap};
+use std::iter;
 use std::sync::atomic::Ordering;
 
 /// What became of one part.
@@ -25,10 +26,9 @@ impl Parts {
         match used {
             Used::Row(row) => rights[self.system.rows[row].index].clone(),
             Used::Held(u) => {
-                let value = self.system.values[u].clone();
-                [value]
-                    .into_iter()
-                    .chain(self.led.get(&u).cloned())
+                let change = self.led.get(&u).cloned();
+                iter::once(self.system.values[u].clone())
+                    .chain(change)
                     .collect()
             }
         }

@@ -385,6 +385,11 @@ impl Parts {
         self.radii.iter().map(radius).collect()
     }
 
+    /// The figure in floats, in the homotopy's unit.
+    fn centres(&self) -> Vec<f64> {
+        self.figure.iter().map(|known| known.centre).collect()
+    }
+
     fn distance(&self, figure: &[Known]) -> f64 {
         let (old, new) = (self.points(), self.points_of(figure));
         let apart = old.iter().zip(&new).map(|(a, b)| {
@@ -474,22 +479,35 @@ impl Parts {
             _ => None,
         });
         let way = self.look_on_the_way(rights, run, control);
-        let account = self.account_of(|k| match way.verdicts.get(&k) {
-            Some(there) => verdicts[k].and(*there),
-            None => verdicts[k],
+        let with_way = |k: usize, verdict: Verdict| match way.verdicts.get(&k) {
+            Some(there) => verdict.and(*there),
+            None => verdict,
+        };
+        // Of the figure that is reached past others that miss something its own verdict is said.
+        let account = self.account_of(|k| match way.missed.contains_key(&k) {
+            true => verdicts[k],
+            false => with_way(k, verdicts[k]),
+        });
+        let first = way.missed.values().min_by(|a, b| a.0.0.total_cmp(&b.0.0));
+        let astray = first.map(|(t, stop)| {
+            let there = hull(t.0.max(0.0), t.1.min(1.0));
+            let values = settings.iter();
+            Astray {
+                t: *t,
+                values: values.map(|s| s.between(&self.problem, there)).collect(),
+                stop: stop.clone(),
+                account: self.account_of(|k| with_way(k, self.verdicts[k])),
+            }
         });
         if let Some(what) = stop {
             // Up to where a figure first misses it, if that was told.
-            let t = way
-                .astray
-                .as_ref()
-                .map_or(0.0, |astray| astray.t.0.max(0.0));
+            let t = astray.as_ref().map_or(0.0, |astray| astray.t.0.max(0.0));
             (run.end, run.t) = (End::Stopped(what), (t, t));
         }
         Judged {
             verdicts,
             account,
-            astray: way.astray,
+            astray,
         }
     }
 

@@ -4,13 +4,12 @@
 
 use super::{End, Parts, Run};
 use crate::blocks::{Verdict, rounded_down};
-use crate::edit::ending::Astray;
 use crate::equations::Form;
 use crate::interval::{Interval, Real, hull, point};
 use crate::system::Right;
 use crate::track::arc::Off;
 use crate::track::{Control, Stop, StopKind};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::mem;
 
 /// Radii of these tubes, as parts of the unit of length.
@@ -21,10 +20,10 @@ const MOST_TUBES: usize = 20_000;
 /// What was found.
 #[derive(Default)]
 pub(super) struct OnTheWay {
-    /// How the figures stand to what was left out, by place, the worst of them, where none is proved to miss it.
+    /// How the figures stand to what was left out, by place, the worst of them, up to the first that misses it.
     pub verdicts: HashMap<usize, Verdict>,
-    /// The first that is proved to miss something.
-    pub astray: Option<Astray>,
+    /// Where the first figures are that are proved to miss something, by its place: bounds on t, and what to say.
+    pub missed: HashMap<usize, ((f64, f64), Stop)>,
 }
 
 impl Parts {
@@ -38,11 +37,8 @@ impl Parts {
         let mut out = OnTheWay::default();
         let moving = self.moving(rights);
         let moves = |u: usize| moving[self.blocks.of_unknown[u]];
-        let doubtful = 0..self.redundant.len();
-        let doubtful = doubtful.filter(|&k| !self.is_proved(k, rights));
-        let mut doubtful: Vec<usize> = doubtful
-            .filter(|&k| self.unknowns_of(k).any(moves))
-            .collect();
+        let is_doubtful = |&k: &usize| !self.is_proved(k, rights) && self.unknowns_of(k).any(moves);
+        let mut doubtful: Vec<usize> = (0..self.redundant.len()).filter(is_doubtful).collect();
         if run.t.0 <= 0.0 {
             return out;
         }
@@ -63,17 +59,12 @@ impl Parts {
                 _ => {}
             }
             for (k, off) in again.beside {
-                let (verdict, astray) = self.verdict_on_the_way(k, off, again.t.1, rights);
-                if !matches!(verdict, Some(Verdict::Undecided { .. })) {
+                let (verdict, missed) = self.verdict_on_the_way(k, off, again.t.1, rights);
+                let is_told = !matches!(verdict, Verdict::Undecided { .. }) || missed.is_some();
+                out.verdicts.insert(k, verdict);
+                out.missed.extend(missed.map(|missed| (k, missed)));
+                if is_told {
                     doubtful.retain(|&other| other != k);
-                }
-                match verdict {
-                    Some(verdict) => out.verdicts.insert(k, verdict),
-                    None => out.verdicts.remove(&k),
-                };
-                let first = |a: &Astray| out.astray.as_ref().is_none_or(|b| a.t.0 < b.t.0);
-                if let Some(astray) = astray.filter(first) {
-                    out.astray = Some(astray);
                 }
             }
         }
@@ -100,32 +91,37 @@ impl Parts {
         again
     }
 
-    /// The verdict on what was left out, or where a figure is first proved to miss it. `end`: a bound on t of all of them.
+    /// The verdict on what was left out, up to where a figure is first proved to miss it, and where that is. `end`: a bound on t of all of
+    /// them.
     fn verdict_on_the_way(
         &self,
         redundant: usize,
         off: Off,
         end: f64,
         rights: &[Vec<Real>],
-    ) -> (Option<Verdict>, Option<Astray>) {
+    ) -> (Verdict, Option<((f64, f64), Stop)>) {
         let unit = point(self.scale(self.system.rows[self.redundant[redundant]].index));
         let right = self.right_until(redundant, end, rights);
         let verdict = |off: Interval| self.ruler(redundant).verdict(off * unit, right * unit);
-        let Some((missed, t)) = off.missed else {
-            return (Some(verdict(off.met)), None);
+        let until = off.until().map(verdict);
+        let undecided = Verdict::Undecided {
+            at_most: f64::INFINITY,
         };
-        let Verdict::Missed { by } = verdict(missed) else {
+        match off.missed.map(|(missed, t)| (verdict(missed), t)) {
+            None => (until.unwrap_or(undecided), None),
+            Some((Verdict::Missed { by }, t)) => {
+                let name = self.name(self.system.rows[self.redundant[redundant]].index);
+                let words = format!(
+                    "there figures that meet the other constraints miss {name} by at least {}, proved",
+                    rounded_down(by)
+                );
+                let stop = Stop::new(StopKind::Contradiction, words);
+                // None is before it but the old figure.
+                (until.unwrap_or(self.verdicts[redundant]), Some((t, stop)))
+            }
             // Nothing was looked at beyond.
-            let at_most = f64::INFINITY;
-            return (Some(Verdict::Undecided { at_most }), None);
-        };
-        let name = self.name(self.system.rows[self.redundant[redundant]].index);
-        let words = format!(
-            "from there on the figures that meet the other constraints miss {name}, there by at least {}, proved",
-            rounded_down(by)
-        );
-        let stop = Stop::new(StopKind::Contradiction, words);
-        (None, Some(Astray { t, stop }))
+            Some(_) => (undecided, None),
+        }
     }
 
     /// The right-hand side of what was left out for t up to `end`, in the homotopy's unit.
@@ -152,8 +148,8 @@ impl Parts {
 
     /// What is looked at and is about some unknowns only.
     pub(super) fn looked_at_in(&self, unknowns: &[usize]) -> impl Iterator<Item = usize> + '_ {
-        let known: std::collections::HashSet<usize> = match self.looked_at.is_empty() {
-            true => Default::default(),
+        let known: HashSet<usize> = match self.looked_at.is_empty() {
+            true => HashSet::new(),
             false => unknowns.iter().copied().collect(),
         };
         let all = self.looked_at.iter().copied();

@@ -8,11 +8,6 @@ use crate::linalg::Vector;
 use crate::system::{Beside, Homotopy};
 use crate::track::arc::Off;
 
-/// A tube is cut into at most 2 to this power pieces.
-const DEPTH: usize = 24;
-/// A piece is not cut where what is known of it is no more than so many times as wide as what is known of one figure.
-const NARROW: f64 = 1.5;
-
 /// The equations, and what is known of them so far.
 #[derive(Debug)]
 pub struct Besides {
@@ -39,42 +34,13 @@ impl Besides {
 
     /// Follows them along a tube, between two parameters.
     pub fn follow<const N: usize, Y: Frame>(&mut self, tube: &Tube<N, Y>, between: (f64, f64)) {
-        let all: Vec<usize> = (0..self.all.len()).collect();
-        self.cut(tube, between, DEPTH, &all);
-    }
-
-    /// Of some of them.
-    fn cut<const N: usize, Y: Frame>(
-        &mut self,
-        tube: &Tube<N, Y>,
-        (a, b): (f64, f64),
-        depth: usize,
-        of: &[usize],
-    ) {
-        if of.is_empty() {
-            return;
+        let (piece, time) = (&mut self.piece, tube.time());
+        for (beside, found) in &mut self.all {
+            found.follow(between, beside.within, &mut |(a, b)| {
+                piece.look(tube, a, b);
+                (beside.off(piece), time.range(a, b))
+            });
         }
-        self.piece.look(tube, a, b);
-        let off = |besides: &Self, k: usize| besides.all[k].0.off(&besides.piece);
-        let found: Vec<(usize, Interval)> = of.iter().map(|&k| (k, off(self, k))).collect();
-        let half = 0.5 * (a + b);
-        let can_halve = depth > 0 && a < half && half < b;
-        if can_halve {
-            self.piece.look(tube, half, half);
-        }
-        let (rest, told): (Vec<_>, Vec<_>) = found.into_iter().partition(|&(k, there)| {
-            let [met, missed] = self.all[k].0.within;
-            let is_told = there.mag() <= met || there.mig() > missed;
-            can_halve && !is_told && there.wid() > NARROW * off(self, k).wid()
-        });
-        let t = tube.time().range(a, b);
-        for (k, there) in told {
-            let (beside, found) = &mut self.all[k];
-            found.take(there, beside.within, t);
-        }
-        let rest: Vec<usize> = rest.into_iter().map(|(k, _)| k).collect();
-        self.cut(tube, (a, half), depth.saturating_sub(1), &rest);
-        self.cut(tube, (half, b), depth.saturating_sub(1), &rest);
     }
 
     /// What is known of each.
@@ -167,12 +133,14 @@ mod tests {
             let [met, missed] = &run.beside[..] else {
                 panic!("two were asked for")
             };
-            assert!(met.missed.is_none() && met.met.contains(0.0), "{met:?}");
-            assert!(met.met.mag() < 5e-4, "{met:?}");
+            assert!(met.missed.is_none(), "{met:?}");
+            let all = met.until().expect("there are figures");
+            assert!(all.contains(0.0) && all.mag() < 5e-4, "{met:?}");
             let (off, t) = missed.missed.expect("it is missed");
             assert!(off.mig() > 5e-4 && off.sup() < 0.0, "{off:?}");
             assert!(t.1 > 0.5 && t.0 < 0.5 + 1e-2, "{t:?}");
-            assert!(missed.met.mag() <= 5e-4 + 2.0 * radius, "{missed:?}");
+            let before = missed.until().expect("it is met at first");
+            assert!(before.mag() <= 5e-4 + 2.0 * radius, "{missed:?}");
         }
     }
 }

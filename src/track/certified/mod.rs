@@ -3,8 +3,9 @@
 //! What both spaces have in common; their tests are in `full/certified` and `reduced/certified`. From the bottom
 //! up: `shortfall` (which condition of a test fails), `proof` (from a contraction to a tube), `link` (tubes, and
 //! that one leads to the next), `solution` (boxes around points with t = 1), `reasons` (why runs stop),
-//! `ledger` (what has been proved so far), `trace` (the path, kept to be drawn), `tracker` (the chain of
-//! tubes, in whichever space).
+//! `ledger` (what has been proved so far), `trace` (the path, kept to be drawn), `piece` (where the path is between two
+//! parameters of a tube), `orientation` and `beside` (what is told from that: signs that are kept, equations that are met), `tracker`
+//! (the chain of tubes, in whichever space).
 
 mod beside;
 mod figures;

@@ -22,7 +22,8 @@ pub(super) const LONGEST: f64 = 4.0;
 #[derive(Debug)]
 pub(super) struct Arc {
     orientations: Orientations,
-    beside: Besides,
+    /// Where there are such.
+    beside: Option<Besides>,
     prover: FoldProver,
     /// Whether the equations are those of the real and imaginary parts of complex ones.
     is_complex: bool,
@@ -44,7 +45,8 @@ impl Arc {
     fn new(homotopy: &Homotopy, equations: &Equations) -> Self {
         Arc {
             orientations: Orientations::new(homotopy, &equations.vector()),
-            beside: Besides::new(homotopy, &equations.vector()),
+            beside: (!homotopy.beside.is_empty())
+                .then(|| Besides::new(homotopy, &equations.vector())),
             prover: FoldProver::new(equations),
             is_complex: false,
             end: None,
@@ -54,7 +56,9 @@ impl Arc {
     /// Sets out from a figure.
     pub fn begin(&mut self, start: &Figure) {
         self.orientations.begin(start);
-        self.beside.begin();
+        if let Some(beside) = &mut self.beside {
+            beside.begin();
+        }
         self.end = None;
     }
 
@@ -202,7 +206,9 @@ impl Arc {
     /// Notes what becomes, on a part of a tube that is proved, of all that is followed along the path.
     fn look_along<const N: usize, Y: Frame>(&mut self, tube: &Tube<N, Y>, between: (f64, f64)) {
         self.orientations.follow(tube, between);
-        self.beside.follow(tube, between);
+        if let Some(beside) = &mut self.beside {
+            beside.follow(tube, between);
+        }
     }
 }
 
@@ -321,7 +327,7 @@ impl<const N: usize, T: Test<N>> Arcs<N, T> {
             last: last[..tracker.equations.m].to_vec(),
             orientations: arc.orientations.account(),
             segments: arc.orientations.segments(),
-            beside: arc.beside.account(),
+            beside: arc.beside.as_ref().map_or(Vec::new(), Besides::account),
             end,
             steps,
             rejected: tracker.rejected,
