@@ -31,6 +31,11 @@ impl Time {
     /// Lets the time begin.
     pub fn begin(&self) {
         if let Some(seconds) = self.time {
+            // Less than a thread takes to begin: a quick run would be done before it could tell.
+            if seconds < 1e-6 {
+                REQUESTED.store(true, Ordering::Relaxed);
+                return;
+            }
             // Where no thread can be had the run goes on to its end.
             let _ = std::thread::Builder::new().spawn(move || {
                 std::thread::sleep(Duration::from_secs_f64(seconds));
