@@ -4,10 +4,12 @@ use super::drawn::{Drawn, Floats, look};
 use super::follows::{Combination, Given, combination};
 use super::singular::Singular;
 use super::{Account, Block, Blocks, COARSE, Choice, Held, Ruler, System, Verdict};
-use crate::constraint::{Entry, Fault, Lowered, Owner, Record, Role, Tail, try_lower_all};
+use crate::constraint::{
+    Entry, Fault, Lowered, Owner, Record, Role, Tail, own_number, try_lower_all,
+};
 use crate::equations::Form;
 use crate::interval::{Interval, Real};
-use crate::problem::{Decimal, Problem, Shape};
+use crate::problem::{Decimal, Problem};
 use crate::system::typical_length;
 use std::collections::BTreeSet;
 
@@ -42,8 +44,8 @@ pub(crate) struct Cut {
     pub rights: Vec<Vec<Real>>,
     /// The power of the unit of length of each of the problem's equations.
     pub powers: Vec<i32>,
-    /// For each object its radius, if it is a circle.
-    pub radii: Vec<Option<usize>>,
+    /// For each object the unknown that is its radius, if it is a circle, or its value, if it is a number.
+    pub numbers: Vec<Option<usize>>,
     /// Of each line and plane of its own the unknowns that stay where it is reversed, and those that change their signs.
     pub own: Vec<[Vec<usize>; 2]>,
     /// What edits of it begin with.
@@ -200,15 +202,12 @@ impl Cut {
             record,
             ..
         } = lowered;
-        let radii = problem
+        let numbers = problem
             .objects
             .iter()
             .zip(&tail.objects)
-            .map(|(object, of)| match (&object.shape, of.first()) {
-                (Shape::Round { .. }, Some(&Entry::Unknown(k))) => Some(system.auxiliary[k]),
-                _ => None,
-            });
-        let radii = radii.collect();
+            .map(|(object, of)| Some(system.auxiliary[own_number(&object.shape, of)?]));
+        let numbers = numbers.collect();
         let own = problem.objects.iter().zip(&tail.objects);
         let own = own.filter_map(|(object, of)| {
             let unknowns = |of: &[Entry]| -> Vec<usize> {
@@ -238,7 +237,7 @@ impl Cut {
             blocks,
             rights,
             powers,
-            radii,
+            numbers,
             own,
             record,
             unit,

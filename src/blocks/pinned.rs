@@ -24,6 +24,7 @@ pub fn pinned(problem: &Problem) -> Option<Problem> {
             kind: kind.to_owned(),
             items: vec![Item::Point(point)],
             value,
+            formula: None,
         });
     };
     hold("fixed", first, None);

@@ -426,21 +426,25 @@ fn understood(problem: &Problem) -> Vec<(&'static str, String)> {
     } else {
         "3, space"
     };
-    rows.push(("dimension", space.to_owned()));
-    rows.push(("points", problem.points.len().to_string()));
+    if !problem.points.is_empty() {
+        rows.push(("dimension", space.to_owned()));
+        rows.push(("points", problem.points.len().to_string()));
+    }
     let squared = problem
         .distances
         .iter()
         .filter(|d| matches!(d.target, Target::SquaredLength(_)))
         .count();
     let distances = problem.distances.len();
-    rows.push((
-        "distances",
-        match squared {
-            0 => distances.to_string(),
-            _ => format!("{distances}, {squared} of them given by their squares"),
-        },
-    ));
+    if !problem.points.is_empty() {
+        rows.push((
+            "distances",
+            match squared {
+                0 => distances.to_string(),
+                _ => format!("{distances}, {squared} of them given by their squares"),
+            },
+        ));
+    }
     for object in &problem.objects {
         rows.push(("object", object_line(problem, object)));
     }
@@ -469,7 +473,9 @@ fn describe(
             .map_or(String::new(), |by| format!(", as {by}"));
         rows.push(("parameter", format!("{name} = {value}{computed}")));
     }
-    rows.push(("free coordinates", free.to_string()));
+    if !problem.points.is_empty() {
+        rows.push(("free coordinates", free.to_string()));
+    }
     if problem.is_distances_only() {
         rows.push((
             "degrees of freedom",
@@ -479,15 +485,19 @@ fn describe(
         let (unknowns, equations) = krawl::constraint::size(problem);
         rows.push((
             "equations",
-            format!(
-                "{equations}, for {free} coordinates and {} auxiliary unknowns",
-                unknowns - free
-            ),
+            match problem.points.is_empty() {
+                true => format!("{equations}, for {unknowns} unknowns"),
+                false => format!(
+                    "{equations}, for {free} coordinates and {} auxiliary unknowns",
+                    unknowns - free
+                ),
+            },
         ));
     }
     rows.extend(census.into_iter().flat_map(freedom));
-    let (label, frame) = frame(problem);
-    rows.push((label, frame));
+    if !problem.points.is_empty() {
+        rows.push(frame(problem));
+    }
     let homotopy = &problem.homotopy;
     if let Some(bend) = problem.bend() {
         let c = &homotopy.bend_coefficient;
@@ -592,6 +602,7 @@ fn object_line(problem: &Problem, object: &Object) -> String {
             names(&[*start]),
             names(&[*end])
         ),
+        Shape::Number { sketch } => format!("{name}, an unknown (in the sketch {sketch})"),
         Shape::Body { points, .. } => {
             format!("{name}, the rigid body of {} (not mirrored)", names(points))
         }

@@ -237,15 +237,17 @@ impl Loaded {
         file: &Path,
         problem: &Problem,
         points: &[[f64; 3]],
-        radii: &[f64],
+        numbers: &[Option<f64>],
     ) -> Result<Vec<u8>, String> {
         match &self.imported {
             Some((imported, bytes)) => {
+                let radii: Vec<f64> = numbers.iter().map(|r| r.unwrap_or(0.0)).collect();
+                let radii = &radii;
                 import::rewrite(imported, bytes, problem, &Figure { points, radii })
             }
             None => {
                 let text = std::fs::read_to_string(file).map_err(|e| e.to_string())?;
-                let text = krawl::edit::rewrite(&text, problem, points, radii);
+                let text = krawl::edit::rewrite(&text, problem, points, numbers);
                 Ok(text.map_err(|e| e.to_string())?.into_bytes())
             }
         }

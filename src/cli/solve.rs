@@ -841,10 +841,10 @@ impl Arguments {
         };
         let from = (file, self.sketch.as_deref());
         self.take.write(from, problem, listed, |number| {
-            let (points, radii) = figures.figure(number);
+            let (points, numbers) = figures.figure(number);
             Ok(Taken {
                 points: points.iter().map(|p| p.each(|x| x.mid())).collect(),
-                radii: radii.iter().map(|r| r.map_or(0.0, |r| r.mid())).collect(),
+                numbers: numbers.iter().map(|x| x.map(|x| x.mid())).collect(),
             })
         })
     }
@@ -929,7 +929,7 @@ impl Arguments {
 
 /// Figures along a path for a page: smooth, and not too much to load.
 fn samples_for(problem: &Problem) -> usize {
-    (60_000 / problem.points.len()).clamp(100, 2400)
+    (60_000 / problem.points.len().max(1)).clamp(100, 2400)
 }
 
 /// Follows the path of one problem. Also tells whether its certificate could be written, and the exit code for

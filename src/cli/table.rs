@@ -168,8 +168,9 @@ fn write(
 ) -> Result<bool, String> {
     let mut changed = loaded.problem.clone();
     given.iter().for_each(|setting| setting.apply(&mut changed));
-    let (points, radii) = (session.figure(), session.radii());
-    let bytes = loaded.rewritten(&arguments.file, &changed, &points, &radii)?;
+    let (points, numbers) = (session.figure(), session.numbers());
+    let numbers: Vec<Option<f64>> = numbers.iter().map(|x| x.map(|x| x.mid())).collect();
+    let bytes = loaded.rewritten(&arguments.file, &changed, &points, &numbers)?;
     let stem = arguments
         .file
         .file_stem()

@@ -41,8 +41,8 @@ pub(super) struct Candidates {
 pub(super) struct Taken {
     /// Points, in the order of the problem.
     pub points: Vec<[f64; 3]>,
-    /// Radii, by object; zero where there is none.
-    pub radii: Vec<f64>,
+    /// Radii of circles and values of unknown numbers, by object.
+    pub numbers: Vec<Option<f64>>,
 }
 
 impl Taken {
@@ -80,12 +80,12 @@ impl Taken {
                 there.map(|p| p.each(|x| x.mid())).collect()
             }
         };
-        let radius = |object: &Located| match object {
-            Located::Round { radius, .. } => radius.mid(),
-            _ => 0.0,
+        let number = |object: &Located| match object {
+            Located::Round { radius: number, .. } | Located::Number(number) => Some(number.mid()),
+            _ => None,
         };
-        let radii = solution.objects.iter().map(radius).collect();
-        Ok(Taken { points, radii })
+        let numbers = solution.objects.iter().map(number).collect();
+        Ok(Taken { points, numbers })
     }
 
     /// The sum of the squares of how far points are from where the sketch has them.
@@ -218,10 +218,10 @@ fn rewritten(
         let sketch = || point.sketch.each_ref().each(|x| x.to_f64());
         of_point(&point.name).map_or_else(sketch, |p| taken.points[p])
     });
-    let radii = loaded.problem.objects.iter().map(|object| {
-        let radius = of_object(&object.name).and_then(|o| taken.radii.get(o));
-        radius.copied().unwrap_or(0.0)
+    let numbers = loaded.problem.objects.iter().map(|object| {
+        let number = of_object(&object.name).and_then(|o| taken.numbers.get(o));
+        number.copied().flatten()
     });
-    let (points, radii): (Vec<_>, Vec<_>) = (points.collect(), radii.collect());
-    loaded.rewritten(file, &loaded.problem, &points, &radii)
+    let (points, numbers): (Vec<_>, Vec<_>) = (points.collect(), numbers.collect());
+    loaded.rewritten(file, &loaded.problem, &points, &numbers)
 }

@@ -43,9 +43,10 @@ pub struct Search {
     /// The seed of the random numbers: equal seeds make equal runs
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
-    /// Stop after so many ways in a row that find nothing new
-    #[arg(long, value_name = "N", default_value_t = 10)]
-    patience: usize,
+    /// Stop after so many ways in a row that find nothing new [default: 10; 50 for equations of one's own while there are fewer solutions than
+    /// the product of their degrees]
+    #[arg(long, value_name = "N")]
+    patience: Option<usize>,
     /// Stop when there are so many, up to signs of axes: a number that you know from elsewhere, nothing is proved by it
     #[arg(long, value_name = "N")]
     enough: Option<usize>,
@@ -87,7 +88,10 @@ impl Search {
             seed: self.seed,
             from,
             enough: self.enough.or(lowered.enough()),
-            patience: self.patience,
+            patience: self.patience.unwrap_or(match lowered.is_of_numbers() {
+                true => 5 * plain.patience,
+                false => plain.patience,
+            }),
             progress: Some(&tell),
             ways: Ways {
                 proved: !self.float,

@@ -23,6 +23,7 @@ impl Matching {
             Shape::FreeLine { .. }
             | Shape::FreePlane { .. }
             | Shape::Round { .. }
+            | Shape::Number { .. }
             | Shape::Arc { .. } => true,
         };
         let first = homotopy.gauge.place.len();
@@ -110,7 +111,8 @@ impl Matching {
                     compare(u, v, sign, 1.0);
                 }
                 // The centre is one of the points.
-                (Located::Round { radius: r, .. }, Located::Round { radius: s, .. }) => {
+                (Located::Number(r), Located::Number(s))
+                | (Located::Round { radius: r, .. }, Located::Round { radius: s, .. }) => {
                     compare(&[*r; 3], &[*s; 3], same, size);
                 }
                 _ => {}
@@ -131,7 +133,9 @@ fn size(figure: &Solution) -> f64 {
             Located::Line { point, .. } | Located::Plane { point, .. } => {
                 point.iter().fold(max, |max, x| max.max(x.mag()))
             }
-            Located::Round { radius, .. } => max.max(radius.mag()),
+            Located::Round { radius: number, .. } | Located::Number(number) => {
+                max.max(number.mag())
+            }
             Located::Body => max,
         })
 }

@@ -14,7 +14,7 @@ use crate::interval::{Interval, point};
 use crate::order::InOrder;
 use crate::places::array;
 use crate::problem::Problem;
-use crate::track::Solution;
+use crate::track::{Solution, relative_width};
 use num_traits::ToPrimitive;
 use serde::{Deserialize, Serialize};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -379,9 +379,7 @@ impl Complete {
                 ));
             }
             Step::Figure { points, is_flat } => {
-                let all = || points.iter().flatten();
-                let size = all().fold(0.0, |max: f64, x| max.max(x.mag()));
-                let width = all().fold(0.0, |max: f64, x| max.max(x.wid())) / size;
+                let width = relative_width(&points, &[]);
                 (result.count, result.reason) = (Some(1), None);
                 result.solutions.push(Solution {
                     points,
@@ -623,9 +621,7 @@ fn in_gauge(
             })
         })
         .collect();
-    let all = points.iter().flatten();
-    let size = all.clone().map(|x| x.mag()).fold(0.0, f64::max);
-    let width = all.map(|x| x.wid()).fold(0.0, f64::max) / size;
+    let width = relative_width(&points, &[]);
     Some(Solution {
         points,
         objects: Vec::new(),

@@ -12,7 +12,7 @@ use super::{Complete, Options, Part, Status, Unserved, Why, all, exact};
 use crate::blocks::{Combined, LeftOut, clusters};
 use crate::order::InOrder;
 use crate::problem::Problem;
-use crate::track::Solution;
+use crate::track::{Solution, relative_width};
 use std::time::Instant;
 
 /// The figures of the whole that are listed at most.
@@ -152,9 +152,7 @@ fn put_together(
         let Some(points) = combined.figure(&combined.choices(number)) else {
             break;
         };
-        let all = || points.iter().flatten();
-        let size = all().fold(0.0, |max: f64, x| max.max(x.mag()));
-        let width = all().fold(0.0, |max: f64, x| max.max(x.wid())) / size;
+        let width = relative_width(&points, &[]);
         let solution = Solution {
             points,
             objects: Vec::new(),

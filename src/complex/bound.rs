@@ -17,6 +17,7 @@
 //! more isolated figures.
 
 use super::laman;
+use crate::problem::{Atom, Problem, Terms};
 use std::collections::HashMap;
 
 /// A bound on the number of isolated complex solutions up to rotation.
@@ -30,6 +31,43 @@ pub struct Bound {
     pub is_cited: bool,
     /// The points that it holds fixed: their distances must not make them isotropic.
     pub fixed: Vec<usize>,
+}
+
+/// The bound of a problem of unknown numbers and equations of its own: the product of the degrees (Bézout's theorem: so many isolated
+/// zeros at most, each with its multiplicity).
+///
+/// A quotient in an equation is an unknown with an equation of its own, one degree above that of what is divided by. `None`: there
+/// is anything else in the problem.
+pub fn of_equations(problem: &Problem) -> Option<Bound> {
+    let degree = |terms: &Terms| terms.keys().map(Vec::len).max().unwrap_or(0) as u128;
+    if !problem.points.is_empty() {
+        return None;
+    }
+    let mut count: u128 = 1;
+    let mut quotients: Vec<&Terms> = Vec::new();
+    for constraint in &problem.constraints {
+        let Some(formula) = &constraint.formula else {
+            // The value of an unknown.
+            continue;
+        };
+        count = count.checked_mul(degree(&formula.zero))?;
+        for atom in &formula.atoms {
+            match atom {
+                Atom::Inverse(of) => quotients.push(of),
+                Atom::Number(_) => {}
+                _ => return None,
+            }
+        }
+    }
+    let count = quotients
+        .into_iter()
+        .try_fold(count, |count, of| count.checked_mul(degree(of) + 1))?;
+    Some(Bound {
+        count,
+        source: "Bézout's bound, the product of the degrees of the equations".to_owned(),
+        is_cited: false,
+        fixed: Vec::new(),
+    })
 }
 
 /// The least bound that is known for a graph, all of whose edges are distances.

@@ -42,6 +42,11 @@ pub struct Lowered {
 }
 
 impl Lowered {
+    /// Whether it is a problem of unknown numbers alone.
+    pub fn is_of_numbers(&self) -> bool {
+        self.system.points.is_empty()
+    }
+
     /// Takes a bound on the number of solutions, up to rotation unless the frame is the problem's own, that somebody cites, unless a smaller one is proved.
     pub fn cite(&mut self, count: u128) {
         if self.bound.as_ref().is_some_and(|own| own.count <= count) {
@@ -127,7 +132,7 @@ fn checked(lowered: Lowered) -> Result<Lowered, Unserved> {
 /// From the equations that real paths follow.
 fn general(problem: &Problem, placed: bool) -> Result<Lowered, Unserved> {
     let mut problem = problem.clone();
-    let mut bound = None;
+    let mut bound = bound::of_equations(&problem);
     if problem.is_distances_only() {
         let edges: Vec<[usize; 2]> = problem.distances.iter().map(|d| d.points).collect();
         bound = bound::bound(problem.dimension, problem.points.len(), &edges);
@@ -180,7 +185,13 @@ fn general(problem: &Problem, placed: bool) -> Result<Lowered, Unserved> {
             ),
             _ => {
                 let equation = &homotopy.tail.equations[e - head];
-                let right = match is_absolute && own_frame::is_place(equation) {
+                // An equation of one's own may have anything on the right.
+                let is_own = problem.constraints.iter().any(|constraint| {
+                    let text = constraint.formula.as_ref().map(|formula| &formula.text);
+                    text == Some(&equation.name)
+                });
+                let is_place = is_absolute && own_frame::is_place(equation);
+                let right = match is_own || is_place {
                     true => dimension(&equation.right),
                     false => right_of(&equation.right),
                 };
@@ -248,10 +259,12 @@ fn general(problem: &Problem, placed: bool) -> Result<Lowered, Unserved> {
     }
     // The bound is about figures that stand on what it holds fixed.
     let bound = bound.filter(|bound| {
-        bound.fixed == problem.homotopy.reference && is_proper(&problem, &bound.fixed)
+        bound.fixed == problem.homotopy.reference
+            && (problem.points.is_empty() || is_proper(&problem, &bound.fixed))
     });
     let graph = bound
         .as_ref()
+        .filter(|_| problem.is_distances_only())
         .and_then(|bound| Graph::new(&problem, &bound.fixed, system.unit));
     Ok(Lowered {
         graph,

@@ -105,6 +105,8 @@ pub enum Sort {
     Round,
     /// A rigid body.
     Body,
+    /// An unknown number.
+    Number,
     /// A coordinate axis.
     Axis,
     /// Nothing: the list ends.
@@ -146,6 +148,7 @@ impl<'a> Arguments<'a> {
                 Shape::Plane(_) | Shape::FreePlane { .. } => Sort::Plane,
                 Shape::Round { .. } | Shape::Arc { .. } => Sort::Round,
                 Shape::Body { .. } => Sort::Body,
+                Shape::Number { .. } => Sort::Number,
             },
         }
     }
@@ -176,6 +179,7 @@ impl<'a> Arguments<'a> {
                 _ => format!("the sphere `{name}`"),
             },
             Sort::Body => format!("the body `{name}`"),
+            Sort::Number => format!("the unknown `{name}`"),
             Sort::Axis => format!("`{name}`"),
             Sort::End => "nothing more".to_owned(),
         }
@@ -193,6 +197,17 @@ impl<'a> Arguments<'a> {
                 Ok(p)
             }
             _ => Err(self.wanted("a point")),
+        }
+    }
+
+    /// An unknown number, by index of the object.
+    pub fn number(&mut self) -> Result<usize, Fault> {
+        match (self.next(), self.items.first()) {
+            (Sort::Number, Some(&Item::Object(object))) => {
+                self.take();
+                Ok(object)
+            }
+            _ => Err(self.wanted("an unknown")),
         }
     }
 
@@ -339,7 +354,7 @@ impl<'a> Arguments<'a> {
             }
             (Sort::Plane, _) | (Sort::Point, 3) => Thing::Flat(Flat::Plane(self.plane()?)),
             (Sort::Point, _) => Thing::Point(self.point()?),
-            (Sort::Body | Sort::End, _) => {
+            (Sort::Body | Sort::Number | Sort::End, _) => {
                 return Err(self.wanted("a point, a line, a plane, a circle or a sphere"));
             }
         })

@@ -49,8 +49,8 @@ mod zeros;
 
 pub use heights::{Divided, Origin, divide, odd_ones};
 pub use kind::{Fixes, Kind, Measure};
-pub use kinds::KINDS;
 pub(crate) use kinds::is_opposite_nearer;
+pub use kinds::{EQUATIONS, KINDS};
 pub(crate) use lowering::MOST_TURN;
 pub use lowering::Spare;
 pub use quadratic::{
@@ -68,6 +68,7 @@ use kind::Given;
 pub(crate) use lowering::{Fault, Lowered, Record};
 use lowering::{Lowering, Start};
 use num_traits::Zero;
+pub(crate) use objects::own_number;
 
 /// The kind that has this key in problem files.
 pub fn kind(key: &str) -> Option<&'static dyn Kind> {
@@ -310,6 +311,12 @@ pub fn fix_frame(problem: &Problem) -> bool {
 
 /// What of the frame the constraints fix together.
 pub(crate) fn frame_of(problem: &Problem) -> Fixes {
+    if problem.points.is_empty() {
+        return Fixes {
+            frame: true,
+            axes: [true; 3],
+        };
+    }
     let kinds = problem.constraints.iter();
     kinds
         .filter_map(|c| Some(kind(&c.kind)?.fixes(problem, &c.items)))

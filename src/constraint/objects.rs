@@ -76,6 +76,17 @@ impl Plane {
     }
 }
 
+/// The auxiliary unknown that is the radius of a circle or sphere, or the value of an unknown number; `own`: what the object has of its own
+/// in [`super::Tail::objects`].
+pub fn own_number(shape: &Shape, own: &[Entry]) -> Option<usize> {
+    match (shape, own.first()) {
+        (Shape::Round { .. } | Shape::Number { .. }, Some(&Entry::Unknown(unknown))) => {
+            Some(unknown)
+        }
+        _ => None,
+    }
+}
+
 impl Lowering<'_> {
     /// A line.
     pub fn line(&mut self, name: LineName) -> Result<Line, Fault> {
@@ -295,6 +306,10 @@ impl Lowering<'_> {
                     self.on_round(&what, &place, &round);
                 }
                 return Ok(());
+            }
+            Shape::Number { sketch } => {
+                let at = Real::from(sketch.value().clone());
+                vec![self.scalar(name, 0, Parity::Even, at)]
             }
             Shape::Body { points, local } => {
                 let (points, local) = (points.clone(), local.clone());

@@ -231,10 +231,16 @@ pub(crate) fn check_structure(problem: &Problem) -> Result<(), (Blame, String)> 
         ));
     }
     let auxiliary = system.lowered.tail.unknowns.len();
+    let kinds = match problem.points.is_empty() {
+        true => String::new(),
+        false => format!(
+            " ({} of points, {auxiliary} auxiliary)",
+            unknowns - auxiliary
+        ),
+    };
     let message = format!(
-        "there are {} ({} of points, {auxiliary} auxiliary) and {}: {}",
+        "there are {}{kinds} and {}: {}",
         counted(unknowns, "unknown"),
-        unknowns - auxiliary,
         counted(equations, "equation"),
         parts.join("; ")
     );

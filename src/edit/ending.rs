@@ -81,6 +81,8 @@ pub struct Edited {
     /// The figure in the coordinates of the problem: a box that holds exactly one figure with the dimensions of
     /// `t`, where it was reached and at a limit; otherwise the old figure.
     pub points: Vec<[Interval; 3]>,
+    /// The radii of circles and the values of unknown numbers in that figure, by object.
+    pub numbers: Vec<Option<Interval>>,
     /// What is proved of the orientations.
     pub orientations: Orientations,
     /// Tubes that the proof took.

@@ -144,11 +144,11 @@ impl Session {
         points.iter().map(|p| p.each(|x| x.mid())).collect()
     }
 
-    /// The radii of circles, by object, in floats; zero for all other objects.
-    pub fn radii(&self) -> Vec<f64> {
+    /// The radii of circles and the values of unknown numbers, by object: enclosures, in the unit of the problem.
+    pub fn numbers(&self) -> Vec<Option<Interval>> {
         match &self.way {
-            Way::Whole(whole) => whole.radii(),
-            Way::Parts(parts) => parts.radii(),
+            Way::Whole(whole) => whole.numbers(),
+            Way::Parts(parts) => parts.numbers(),
         }
     }
 
@@ -220,6 +220,7 @@ impl Session {
             ending: Ending::Stopped(astray.stop),
             t: astray.t,
             points: self.points(),
+            numbers: self.numbers(),
             orientations: Orientations::default(),
             account: astray.account,
             ..edited

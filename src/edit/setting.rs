@@ -5,6 +5,7 @@ use crate::constraint::{self, MOST_TURN, Measure};
 use crate::interval::angle::{degrees_of_cosine, direction};
 use crate::interval::{Interval, Real, point};
 use crate::places::Each as _;
+use crate::problem::expression::names;
 use crate::problem::{Constraint, Decimal, DecimalError, Item, Problem, Shape, Target};
 use num_rational::BigRational;
 use num_traits::Signed;
@@ -253,11 +254,12 @@ impl Setting {
     /// From the name of a dimension and the text of its new value.
     pub fn named(problem: &Problem, name: &str, value: &str) -> Result<Self, SettingError> {
         let name = name.trim();
-        if problem.parameters.iter().any(|(other, _)| other == name) {
+        let is_led = is_led_alone(problem, name);
+        if problem.parameters.iter().any(|(other, _)| other == name) && !is_led {
             return Err(SettingError::Parameter(name.to_owned()));
         }
         let index = find(problem, name)?;
-        if let Some(expression) = number(problem, index).and_then(Decimal::expression) {
+        if !is_led && let Some(expression) = number(problem, index).and_then(Decimal::expression) {
             let name = problem.dimension_name(index);
             return Err(SettingError::Computed(name, expression.to_owned()));
         }
@@ -300,6 +302,21 @@ impl Setting {
         }
         Ok(())
     }
+}
+
+/// Whether a parameter is a dimension and nothing else: it stands in equations, and nothing is computed from it.
+pub(super) fn is_led_alone(problem: &Problem, name: &str) -> bool {
+    let has = |value: &Decimal| {
+        let expression = value.expression();
+        expression.is_some_and(|expression| names(expression).any(|other| other == name))
+    };
+    let computed = problem
+        .dimensions()
+        .filter(|&index| number(problem, index).is_some_and(has));
+    let computed: Vec<usize> = computed.collect();
+    let mut parameters = problem.parameters.iter();
+    let is_label = |index: &usize| problem.labels.get(index).is_some_and(|label| label == name);
+    matches!(&computed[..], [own] if is_label(own)) && !parameters.any(|(_, value)| has(value))
 }
 
 /// What a turn is at t on its way: θ and four times the argument of `1 + (e^iΔ/4 − 1) t`, as its equations lead it.

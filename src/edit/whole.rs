@@ -8,10 +8,10 @@ use super::place::Stand;
 use super::segments::{NARROWER, Reversed, first_lost, is_same_by_constraint, segments, stop};
 use super::setting::Setting;
 use crate::blocks::Account;
-use crate::constraint::{Entry, Record, try_lower_editable};
+use crate::constraint::{Entry, Record, own_number, try_lower_editable};
 use crate::interval::{Interval, enclose, hull, point};
 use crate::places::Each as _;
-use crate::problem::{Decimal, Object, Problem, Shape, Target};
+use crate::problem::{Decimal, Object, Problem, Target};
 use crate::system::{Homotopy, typical_length};
 use crate::track::arc::{ArcEnd, ArcRun, Figure, Fold, Orientation};
 use crate::track::certified::{FollowArcs, arcs};
@@ -140,19 +140,21 @@ impl Whole {
         }
     }
 
-    /// The radii of circles, by object, in floats; zero for what is none.
-    pub fn radii(&self) -> Vec<f64> {
+    /// The radii of circles and the values of unknown numbers, by object.
+    pub fn numbers(&self) -> Vec<Option<Interval>> {
+        self.numbers_of(&self.figure)
+    }
+
+    fn numbers_of(&self, figure: &Figure) -> Vec<Option<Interval>> {
         let homotopy = self.arcs.homotopy();
         let places = homotopy.gauge.place.len();
         let objects = self.problem.objects.iter().zip(&homotopy.tail.objects);
-        let radius =
-            |(object, entries): (&Object, &Vec<Entry>)| match (&object.shape, entries.first()) {
-                (Shape::Round { .. }, Some(&Entry::Unknown(k))) => {
-                    self.figure.centre[places + k] * homotopy.unit
-                }
-                _ => 0.0,
-            };
-        objects.map(radius).collect()
+        let number = |(object, entries): (&Object, &Vec<Entry>)| {
+            let unknown = own_number(&object.shape, entries)?;
+            let unit = homotopy.unit.powi(homotopy.tail.unknowns[unknown].power);
+            Some(figure.enclosure(places + unknown) * point(unit))
+        };
+        objects.map(number).collect()
     }
 
     /// See [`super::Session::edit_with`].
@@ -342,20 +344,21 @@ impl Whole {
             }
         });
         let dimensions = dimensions.collect();
-        let (ending, points, figure) = match run.end {
-            ArcEnd::Reached(figure) => (Ending::Reached, self.in_problem(&figure), Some(figure)),
+        let (ending, at, figure) = match run.end {
+            ArcEnd::Reached(figure) => (Ending::Reached, figure.clone(), Some(figure)),
             ArcEnd::Limit(fold) => {
                 let limit = self.limit(&fold, &run.orientations);
-                (Ending::Limit(limit), self.in_problem(&fold.figure), None)
+                (Ending::Limit(limit), fold.figure, None)
             }
-            ArcEnd::Passes(reason) => (Ending::Passes(reason), self.points(), None),
-            ArcEnd::Stopped(reason) => (Ending::Stopped(reason), self.points(), None),
+            ArcEnd::Passes(reason) => (Ending::Passes(reason), self.figure.clone(), None),
+            ArcEnd::Stopped(reason) => (Ending::Stopped(reason), self.figure.clone(), None),
         };
         let edited = Edited {
             ending,
             t: run.t,
             dimensions,
-            points,
+            points: self.in_problem(&at),
+            numbers: self.numbers_of(&at),
             orientations: Orientations::new(run.orientations),
             tubes: run.steps,
             rejected: run.rejected,

@@ -1,6 +1,6 @@
 //! Angles in the plane that are set beyond 0 or 180 degrees: followed as turns.
 
-use super::setting::{Setting, SettingError, measure, number};
+use super::setting::{Setting, SettingError, is_led_alone, measure, number};
 use super::write::direction;
 use crate::constraint::{Arguments, KINDS, LineName, Measure, is_opposite_nearer};
 use crate::interval::Real;
@@ -143,7 +143,8 @@ impl Asked {
     /// As there; and one is of a parameter.
     pub fn of_dimensions(problem: &Problem, named: &[(&str, &str)]) -> Result<Self, SettingError> {
         let mut parameters = problem.parameters.iter();
-        match parameters.find(|(name, _)| named.iter().any(|(other, _)| other == name)) {
+        let is_named = |name: &String| named.iter().any(|(other, _)| other == name);
+        match parameters.find(|(name, _)| is_named(name) && !is_led_alone(problem, name)) {
             Some((name, _)) => Err(SettingError::Parameter(name.clone())),
             None => Self::new(problem, named),
         }
@@ -239,6 +240,7 @@ fn as_turn(problem: &Problem, index: usize) -> Option<Constraint> {
         kind: "turns".to_owned(),
         items: directed(problem, &angle.items, angle.value.as_ref()?)?,
         value: angle.value.clone(),
+        formula: None,
     })
 }
 

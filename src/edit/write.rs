@@ -28,7 +28,7 @@ pub enum WriteError {
     Straight(String),
 }
 
-/// Puts the places of points, the radii of circles and the dimensions of `problem` into the text of the file that it was read from,
+/// Puts the places of points, the radii of circles, the values of unknowns and the dimensions of `problem` into the text of the file that it was read from,
 /// which keeps its order, comments and layout.
 ///
 /// Two lines have two angles. Of a right angle the file tells by the order of the lines' ends which of both it is; where an angle
@@ -36,12 +36,12 @@ pub enum WriteError {
 /// the other order.
 ///
 /// Places are rounded to floats. Dimensions are put where they differ from what the text says, those given
-/// by their squares as exact squares. `radii`: by object, in floats; zeros stand for what is not to be changed.
+/// by their squares as exact squares. `numbers`: radii and values by object, in floats; `None` stands for what is not to be changed.
 pub fn rewrite(
     text: &str,
     problem: &Problem,
     places: &[[f64; 3]],
-    radii: &[f64],
+    numbers: &[Option<f64>],
 ) -> Result<String, WriteError> {
     let other = |what: &str| WriteError::OtherFile(what.to_owned());
     let document = Document::parse(text).map_err(|error| other(error.message()))?;
@@ -53,9 +53,9 @@ pub fn rewrite(
         Ok(())
     };
 
-    let points = table(root, "points").ok_or_else(|| other("no points"))?;
+    let points = table(root, "points");
     for (point, place) in problem.points.iter().zip(places) {
-        let item = points.get(&point.name).and_then(Item::as_array);
+        let item = points.and_then(|points| points.get(&point.name)?.as_array());
         let array = item.ok_or_else(|| other(&point.name))?;
         for (value, x) in array.iter().zip(place) {
             put(value, float(*x))?;
@@ -65,17 +65,31 @@ pub fn rewrite(
         let Some(circles) = table(root, key) else {
             continue;
         };
-        for (object, &radius) in problem.objects.iter().zip(radii) {
+        for (object, radius) in problem.objects.iter().zip(numbers) {
             let circle = circles.get(&object.name).and_then(Item::as_inline_table);
-            if let Some(value) = circle.and_then(|circle| circle.get("radius"))
-                && radius > 0.0
+            if let (Some(value), &Some(radius)) =
+                (circle.and_then(|circle| circle.get("radius")), radius)
             {
                 put(value, float(radius))?;
             }
         }
     }
+    if let Some(unknowns) = table(root, "unknowns") {
+        for (object, number) in problem.objects.iter().zip(numbers) {
+            if let (Some(value), &Some(number)) =
+                (unknowns.get(&object.name).and_then(Item::as_value), number)
+            {
+                put(value, float(number))?;
+            }
+        }
+    }
     for (name, wanted) in &problem.parameters {
         let value = table(root, "parameters").and_then(|all| all.get(name)?.as_value());
+        // One that the path leads from elsewhere says where to beside.
+        let value = match value.and_then(Value::as_inline_table) {
+            Some(parts) => parts.get("value"),
+            None => value,
+        };
         let value = value.ok_or_else(|| other(name))?;
         let is_said = match wanted.expression() {
             Some(expression) => value.as_str() == Some(expression),
@@ -85,9 +99,9 @@ pub fn rewrite(
             put(value, toml_number(wanted.text()))?;
         }
     }
-    let constraints = table(root, "constraints").ok_or_else(|| other("no constraints"))?;
+    let constraints = table(root, "constraints");
     let list = |key: &str| -> Vec<&Value> {
-        let array = constraints.get(key).and_then(Item::as_array);
+        let array = constraints.and_then(|all| all.get(key)?.as_array());
         array.map_or(Vec::new(), |array| array.iter().collect())
     };
     // Under `distances` there are those of points from lines and planes too, which are constraints.
@@ -107,6 +121,16 @@ pub fn rewrite(
     entries.insert("distances".to_owned(), others.into_iter());
     for (index, constraint) in problem.constraints.iter().enumerate() {
         let key = &constraint.kind;
+        let is_parameter = |item: &crate::problem::Item| {
+            let named = problem.item_name(*item);
+            problem.parameters.iter().any(|(name, _)| name == named)
+        };
+        // Equations have no number, and parameters in them have theirs under `parameters`.
+        if constraint.formula.is_some()
+            || key == "values" && constraint.items.first().is_some_and(is_parameter)
+        {
+            continue;
+        }
         let entries = entries
             .entry(key.clone())
             .or_insert_with(|| list(key).into_iter());

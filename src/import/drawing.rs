@@ -144,6 +144,7 @@ impl Drawing {
             kind: kind.to_owned(),
             items,
             value,
+            formula: None,
         };
         let is_there = |(other, _): &(Constraint, _)| {
             other.kind == constraint.kind && other.items == constraint.items

@@ -125,6 +125,12 @@ impl Motion {
         options: &Options,
         control: &mut Control,
     ) -> Result<Self, String> {
+        if problem.points.is_empty() {
+            return Err(
+                "there are no points: what moves is measured by lengths, angles and coordinates of points, and not of unknown numbers yet"
+                    .to_owned(),
+            );
+        }
         let (problem, freed, mut quantities) = without(problem, free)?;
         if !asked.is_empty() {
             quantities.clear();

@@ -2,8 +2,9 @@
 
 use super::builder::{Number, ProblemBuilder, check_name, number};
 use super::error::{MAX_NAME, Place};
+use super::formula;
 use super::{AXES, Constraint, Decimal, DecimalError, Item, Object, Point, ProblemError, Shape};
-use crate::constraint::{self, KINDS};
+use crate::constraint::{self, EQUATIONS, KINDS};
 use crate::order::InOrder;
 use crate::statement::nearest;
 use std::collections::{HashMap, HashSet};
@@ -24,6 +25,7 @@ enum DraftShape {
     Sphere(String, Number),
     Arc([String; 3]),
     Body(Vec<(String, Vec<Number>)>),
+    Number(Number),
 }
 
 impl DraftShape {
@@ -36,6 +38,7 @@ impl DraftShape {
             Self::Sphere(..) => ("sphere", Some(3)),
             Self::Arc(_) => ("arc", Some(2)),
             Self::Body(_) => ("body", None),
+            Self::Number(_) => ("unknown", None),
         }
     }
 }
@@ -152,6 +155,29 @@ impl ProblemBuilder {
         let points = points.into_iter().map(|(p, at)| (p, numbers(at)));
         let points = points.collect();
         self.object(name, DraftShape::Body(points))
+    }
+
+    /// Adds a number that is sought, with its value in the sketch.
+    ///
+    /// ```
+    /// use krawl::problem::Problem;
+    /// let problem = Problem::build("circle and hyperbola", 2)
+    ///     .unknown("x", "1.2").unknown("y", "0.5")
+    ///     .equation("x^2 + y^2 = 2.5").equation("x*y = 1")
+    ///     .finish().unwrap();
+    /// assert_eq!(problem.objects.len(), 2);
+    /// ```
+    pub fn unknown<N>(self, name: &str, sketch: N) -> Self
+    where
+        N: TryInto<Decimal>,
+        DecimalError: From<N::Error>,
+    {
+        self.object(name, DraftShape::Number(number(sketch)))
+    }
+
+    /// Adds an equation over unknowns, coordinates `A.x` and distances `|A-B|`.
+    pub fn equation(self, text: &str) -> Self {
+        self.constraint(EQUATIONS, [text])
     }
 
     fn object(mut self, name: &str, shape: DraftShape) -> Self {
@@ -280,6 +306,9 @@ impl ProblemBuilder {
                             local: body.1,
                         }
                     }
+                    DraftShape::Number(sketch) => Shape::Number {
+                        sketch: given(sketch)?,
+                    },
                 };
                 Ok(Object {
                     name: draft.name.clone(),
@@ -364,9 +393,22 @@ impl ProblemBuilder {
                     known.ok_or_else(|| unknown(place, &what, name, items.keys().copied(), true))
                 };
                 let value = draft.value.clone().transpose();
+                let formula = match draft.items.as_slice() {
+                    [text] if draft.kind == EQUATIONS => {
+                        let read = formula::read(text, self.dimension, &items);
+                        let fault = |fault| ProblemError::Equation { index, fault };
+                        Some(Box::new(read.map_err(fault)?))
+                    }
+                    _ => None,
+                };
+                let named = match &formula {
+                    Some(formula) => formula.items(),
+                    None => draft.items.iter().map(find).collect::<Result<_, _>>()?,
+                };
                 Ok(Constraint {
                     kind: draft.kind.clone(),
-                    items: draft.items.iter().map(find).collect::<Result<_, _>>()?,
+                    items: named,
+                    formula,
                     value: value.map_err(|source| ProblemError::Number {
                         place,
                         what,
@@ -415,6 +457,7 @@ pub(super) fn what(dimension: usize, shape: &Shape) -> &'static str {
         (Shape::Round { .. }, _) => "sphere",
         (Shape::Arc { .. }, _) => "arc",
         (Shape::Body { .. }, _) => "body",
+        (Shape::Number { .. }, _) => "unknown",
     }
 }
 
@@ -449,7 +492,7 @@ pub(super) fn check_names(problem: &super::Problem) -> Result<(), ProblemError> 
         let points: Vec<usize> = match &object.shape {
             Shape::Line(points) => points.to_vec(),
             Shape::Plane(points) => points.to_vec(),
-            Shape::FreeLine { .. } | Shape::FreePlane { .. } => Vec::new(),
+            Shape::FreeLine { .. } | Shape::FreePlane { .. } | Shape::Number { .. } => Vec::new(),
             Shape::Round { center, .. } => vec![*center],
             Shape::Arc { center, start, end } => vec![*center, *start, *end],
             Shape::Body { points, local } => {
@@ -512,7 +555,8 @@ pub(super) fn check_names(problem: &super::Problem) -> Result<(), ProblemError> 
                 nearest: None,
             });
         };
-        if !constraint.items.iter().all(known) {
+        let is_whole = constraint.formula.as_ref().is_none_or(|f| f.is_of(problem));
+        if !constraint.items.iter().all(known) || !is_whole {
             return Err(ProblemError::Constraint {
                 index,
                 name: constraint.kind.clone(),
@@ -520,7 +564,8 @@ pub(super) fn check_names(problem: &super::Problem) -> Result<(), ProblemError> 
                 takes: kind.takes(),
             });
         }
-        if !seen.insert((constraint.kind.as_str(), &constraint.items)) {
+        let text = constraint.formula.as_ref().map(|formula| &formula.text);
+        if !seen.insert((constraint.kind.as_str(), &constraint.items, text)) {
             let name = problem.constraint_name(index);
             return Err(ProblemError::RepeatedConstraint { index, name });
         }

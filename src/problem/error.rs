@@ -236,6 +236,14 @@ pub enum ProblemError {
         /// What its kind takes.
         takes: &'static str,
     },
+    /// An equation that cannot be read.
+    #[error("{fault}")]
+    Equation {
+        /// Which constraint.
+        index: usize,
+        /// What is wrong, and where.
+        fault: String,
+    },
     /// Not as many equations as unknowns, or not where they are needed.
     #[error("{fault}")]
     System {
@@ -331,9 +339,9 @@ impl ProblemError {
             Self::RepeatedName { place, .. } | Self::System { place, .. } => *place,
             Self::WrongSpace { index, .. } | Self::Object { index, .. } => Place::Object(*index),
             Self::UnknownKind { .. } => Place::Distances,
-            Self::RepeatedConstraint { index, .. } | Self::Constraint { index, .. } => {
-                Place::Constraint(*index)
-            }
+            Self::RepeatedConstraint { index, .. }
+            | Self::Constraint { index, .. }
+            | Self::Equation { index, .. } => Place::Constraint(*index),
             Self::ReferenceInOwnFrame(_) => Place::Reference,
         }
     }

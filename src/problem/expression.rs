@@ -1,14 +1,15 @@
-//! Numbers that are computed from parameters: `width/2 + 3`, exactly.
+//! Expressions as people write them, `width/2 + 3`: read once, for numbers that are computed from parameters, exactly, and for
+//! the polynomials of [equations](super::formula).
 
 use super::{Decimal, DecimalError};
 use num_bigint::BigInt;
 use num_rational::BigRational;
-use num_traits::{One, Signed, Zero};
+use num_traits::{Signed, Zero};
 
 /// A number that has no end as a decimal, as a third, is taken to so many digits.
 const DIGITS: i32 = 30;
 /// Powers go up to this.
-const MOST_POWER: u32 = 20;
+pub(super) const MOST_POWER: u32 = 20;
 /// No number on the way has more bits than this, above or below.
 const MOST_BITS: u64 = 20_000;
 /// Parentheses and signs in one another.
@@ -19,12 +20,7 @@ const DEPTH: usize = 50;
 /// # Errors
 /// What is wrong with it, in words, and where.
 pub(crate) fn evaluate(text: &str, parameters: &[(String, Decimal)]) -> Result<Decimal, String> {
-    let mut reader = Reader {
-        text,
-        at: 0,
-        parameters,
-        depth: 0,
-    };
+    let mut reader = Reader::new(text, Numbers(parameters));
     let value = reader.sum()?;
     match reader.peek() {
         None => Ok(decimal(&value)
@@ -32,6 +28,15 @@ pub(crate) fn evaluate(text: &str, parameters: &[(String, Decimal)]) -> Result<D
             .computed_by(text)),
         Some(_) => Err(reader.wrong("an operator was expected")),
     }
+}
+
+/// The names in an expression or equation, without those of points, in `A.x` and `|A-B|`.
+pub(crate) fn names(text: &str) -> impl Iterator<Item = &str> {
+    let is_part = |c: char| c.is_alphanumeric() || c == '_' || c == '.';
+    let outside = text.split('|').step_by(2);
+    outside
+        .flat_map(move |text| text.split(move |c| !is_part(c)))
+        .filter(|name| is_name(name))
 }
 
 /// Whether this can be the name of a parameter: letters, digits and underscores, a letter first.
@@ -93,22 +98,128 @@ fn decimal(value: &BigRational) -> Result<Decimal, DecimalError> {
     }
 }
 
-struct Reader<'a> {
-    text: &'a str,
-    at: usize,
-    parameters: &'a [(String, Decimal)],
-    depth: usize,
+/// What expressions are made of: how numbers and names are read, and what becomes of them.
+///
+/// Each error is what follows the expression in its message, with what stands between the two: `: a power is …`.
+pub(super) trait Algebra {
+    /// What an expression is.
+    type Value;
+    /// A number.
+    fn number(&self, number: Decimal) -> Result<Self::Value, String>;
+    /// What a name stands for, with what may stand right behind it, as a coordinate does: how long that is.
+    fn name(&mut self, name: &str, rest: &str) -> Result<(Self::Value, usize), String>;
+    /// What stands between two bars, `|a-b|`, if anything may.
+    fn bars(&mut self, inner: &str) -> Result<Self::Value, String>;
+    /// The root.
+    fn root(&mut self, of: Self::Value) -> Result<Self::Value, String>;
+    fn sum(&self, a: Self::Value, b: Self::Value) -> Result<Self::Value, String>;
+    fn negative(&self, a: Self::Value) -> Self::Value;
+    fn product(&self, a: &Self::Value, b: &Self::Value) -> Result<Self::Value, String>;
+    fn quotient(&mut self, a: Self::Value, b: Self::Value) -> Result<Self::Value, String>;
+    /// Its value, if it is a whole number that is not negative.
+    fn whole(&self, a: &Self::Value) -> Option<u32>;
 }
 
-impl Reader<'_> {
-    fn peek(&mut self) -> Option<char> {
+/// Exact numbers, by the parameters before.
+struct Numbers<'a>(&'a [(String, Decimal)]);
+
+impl Numbers<'_> {
+    /// A number, if it is no larger than numbers may be.
+    fn checked(number: BigRational) -> Result<BigRational, String> {
+        match number.numer().bits().max(number.denom().bits()) <= MOST_BITS {
+            true => Ok(number),
+            false => Err(" has a number that is too large on the way".to_owned()),
+        }
+    }
+}
+
+impl Algebra for Numbers<'_> {
+    type Value = BigRational;
+
+    fn number(&self, number: Decimal) -> Result<BigRational, String> {
+        Ok(number.value().clone())
+    }
+
+    fn name(&mut self, name: &str, _rest: &str) -> Result<(BigRational, usize), String> {
+        let found = self.0.iter().find(|(other, _)| other == name);
+        let (_, value) = found.ok_or_else(|| {
+            let names = self.0.iter().map(|(name, _)| name.as_str());
+            let meant = crate::statement::nearest(name, names);
+            let meant = meant.map_or(String::new(), |near| format!("; did you mean `{near}`?"));
+            format!(": `{name}` is no parameter that stands before{meant}")
+        })?;
+        Ok((value.value().clone(), 0))
+    }
+
+    fn bars(&mut self, inner: &str) -> Result<BigRational, String> {
+        Err(format!(
+            ": a length, `|{inner}|`, can stand in equations only"
+        ))
+    }
+
+    fn root(&mut self, _of: BigRational) -> Result<BigRational, String> {
+        Err(": a root can stand in equations only".to_owned())
+    }
+
+    fn sum(&self, a: BigRational, b: BigRational) -> Result<BigRational, String> {
+        Self::checked(a + b)
+    }
+
+    fn negative(&self, a: BigRational) -> BigRational {
+        -a
+    }
+
+    fn product(&self, a: &BigRational, b: &BigRational) -> Result<BigRational, String> {
+        Self::checked(a * b)
+    }
+
+    fn quotient(&mut self, a: BigRational, b: BigRational) -> Result<BigRational, String> {
+        match b.is_zero() {
+            true => Err(" divides by zero".to_owned()),
+            false => Self::checked(a / b),
+        }
+    }
+
+    fn whole(&self, a: &BigRational) -> Option<u32> {
+        let whole = a.is_integer().then(|| a.to_integer());
+        whole.and_then(|whole| u32::try_from(whole).ok())
+    }
+}
+
+/// A text, and how far it was read.
+pub(super) struct Reader<'a, A> {
+    text: &'a str,
+    at: usize,
+    depth: usize,
+    algebra: A,
+}
+
+impl<'a, A: Algebra> Reader<'a, A> {
+    /// Nothing is read yet.
+    pub(super) fn new(text: &'a str, algebra: A) -> Self {
+        Reader {
+            text,
+            at: 0,
+            depth: 0,
+            algebra,
+        }
+    }
+
+    /// What it is read into.
+    pub(super) fn algebra(&mut self) -> &mut A {
+        &mut self.algebra
+    }
+
+    /// What comes next that is no space.
+    pub(super) fn peek(&mut self) -> Option<char> {
         let rest = &self.text[self.at..];
         let next = rest.trim_start();
         self.at += rest.len() - next.len();
         next.chars().next()
     }
 
-    fn take(&mut self, wanted: char) -> bool {
+    /// Takes this, if it comes next.
+    pub(super) fn take(&mut self, wanted: char) -> bool {
         let is_next = self.peek() == Some(wanted);
         if is_next {
             self.at += wanted.len_utf8();
@@ -116,47 +227,54 @@ impl Reader<'_> {
         is_next
     }
 
-    fn wrong(&mut self, what: &str) -> String {
+    /// The message that something else was expected.
+    pub(super) fn wrong(&mut self, what: &str) -> String {
         match self.peek() {
             None => format!("`{}` ends where {what}", self.text),
             Some(_) => format!("`{}`: {what} at `{}`", self.text, &self.text[self.at..]),
         }
     }
 
-    fn sum(&mut self) -> Result<BigRational, String> {
+    fn named<T>(&self, result: Result<T, String>) -> Result<T, String> {
+        result.map_err(|why| format!("`{}`{why}", self.text))
+    }
+
+    /// A sum, up to what can be no part of it.
+    pub(super) fn sum(&mut self) -> Result<A::Value, String> {
         let mut sum = self.product()?;
         loop {
-            if self.take('+') {
-                let by = self.product()?;
-                sum = self.checked(sum + by)?;
-            } else if self.take('-') {
-                let by = self.product()?;
-                sum = self.checked(sum - by)?;
-            } else {
+            let is_plus = self.take('+');
+            if !is_plus && !self.take('-') {
                 return Ok(sum);
             }
+            let by = self.product()?;
+            let by = if is_plus {
+                by
+            } else {
+                self.algebra.negative(by)
+            };
+            let next = self.algebra.sum(sum, by);
+            sum = self.named(next)?;
         }
     }
 
-    fn product(&mut self) -> Result<BigRational, String> {
+    fn product(&mut self) -> Result<A::Value, String> {
         let mut product = self.signed()?;
         loop {
-            if self.take('*') {
+            let next = if self.take('*') {
                 let by = self.signed()?;
-                product = self.checked(product * by)?;
+                self.algebra.product(&product, &by)
             } else if self.take('/') {
                 let by = self.signed()?;
-                if by.is_zero() {
-                    return Err(format!("`{}` divides by zero", self.text));
-                }
-                product = self.checked(product / by)?;
+                self.algebra.quotient(product, by)
             } else {
                 return Ok(product);
-            }
+            };
+            product = self.named(next)?;
         }
     }
 
-    fn signed(&mut self) -> Result<BigRational, String> {
+    fn signed(&mut self) -> Result<A::Value, String> {
         self.depth += 1;
         if self.depth > DEPTH {
             return Err(format!(
@@ -165,7 +283,10 @@ impl Reader<'_> {
             ));
         }
         let value = match (self.take('-'), self.peek()) {
-            (true, _) => -self.signed()?,
+            (true, _) => {
+                let value = self.signed()?;
+                self.algebra.negative(value)
+            }
             (false, Some('+')) => {
                 self.at += 1;
                 self.signed()?
@@ -176,49 +297,42 @@ impl Reader<'_> {
         Ok(value)
     }
 
-    /// A number, if it is no larger than numbers may be.
-    fn checked(&self, number: BigRational) -> Result<BigRational, String> {
-        self.fits(&number, 1).map(|()| number)
-    }
-
-    /// Whether so many factors like this one are no larger than numbers may be.
-    fn fits(&self, number: &BigRational, times: u32) -> Result<(), String> {
-        let bits = number.numer().bits().max(number.denom().bits());
-        match bits * u64::from(times) <= MOST_BITS {
-            true => Ok(()),
-            false => Err(format!(
-                "`{}` has a number that is too large on the way",
-                self.text
-            )),
-        }
-    }
-
-    fn power(&mut self) -> Result<BigRational, String> {
+    /// `x^2`, or `x**2`.
+    fn power(&mut self) -> Result<A::Value, String> {
         let base = self.atom()?;
-        if !self.take('^') {
+        let is_double = self.peek() == Some('*') && self.text[self.at..].starts_with("**");
+        self.at += if is_double { 2 } else { 0 };
+        if !is_double && !self.take('^') {
             return Ok(base);
         }
         let power = self.atom()?;
-        let whole = power.is_integer().then(|| power.to_integer());
-        match whole.and_then(|power| u32::try_from(power).ok()) {
-            Some(power) if power <= MOST_POWER => self.fits(&base, power).map(|()| match power {
-                0 => BigRational::one(),
-                power => base.pow(power as i32),
-            }),
-            _ => Err(format!(
+        let power = self.algebra.whole(&power).filter(|&n| n <= MOST_POWER);
+        let power = power.ok_or_else(|| {
+            format!(
                 "`{}`: a power is a whole number from 0 to {MOST_POWER}",
                 self.text
-            )),
+            )
+        })?;
+        let one = self.algebra.number(Decimal::from(1));
+        let mut value = self.named(one)?;
+        for _ in 0..power {
+            let next = self.algebra.product(&value, &base);
+            value = self.named(next)?;
+        }
+        Ok(value)
+    }
+
+    fn in_parentheses(&mut self) -> Result<A::Value, String> {
+        let value = self.sum()?;
+        match self.take(')') {
+            true => Ok(value),
+            false => Err(self.wrong("`)` was expected")),
         }
     }
 
-    fn atom(&mut self) -> Result<BigRational, String> {
+    fn atom(&mut self) -> Result<A::Value, String> {
         if self.take('(') {
-            let value = self.sum()?;
-            return match self.take(')') {
-                true => Ok(value),
-                false => Err(self.wrong("`)` was expected")),
-            };
+            return self.in_parentheses();
         }
         let first = self.peek();
         let rest = &self.text[self.at..];
@@ -239,24 +353,34 @@ impl Reader<'_> {
                     .parse()
                     .map_err(|error: DecimalError| format!("`{}`: {error}", self.text))?;
                 self.at += end;
-                Ok(number.value().clone())
+                let value = self.algebra.number(number);
+                self.named(value)
+            }
+            Some('|') => {
+                let inner = rest[1..].split('|').next().unwrap_or_default();
+                if rest.len() < inner.len() + 2 {
+                    return Err(format!("`{}`: a second `|` was expected", self.text));
+                }
+                self.at += inner.len() + 2;
+                let value = self.algebra.bars(inner.trim());
+                self.named(value)
             }
             Some(c) if c.is_alphabetic() || c == '_' => {
                 let is_part = |c: char| c.is_alphanumeric() || c == '_';
                 let end = rest.find(|c| !is_part(c)).unwrap_or(rest.len());
                 let name = &rest[..end];
-                let found = self.parameters.iter().find(|(other, _)| other == name);
-                let (_, value) = found.ok_or_else(|| {
-                    let names = self.parameters.iter().map(|(name, _)| name.as_str());
-                    match crate::statement::nearest(name, names) {
-                        Some(near) => format!("`{}`: `{name}` is no parameter that stands before; did you mean `{near}`?", self.text),
-                        None => format!("`{}`: `{name}` is no parameter that stands before", self.text),
-                    }
-                })?;
                 self.at += end;
-                Ok(value.value().clone())
+                if name == "sqrt" && self.take('(') {
+                    let of = self.in_parentheses()?;
+                    let root = self.algebra.root(of);
+                    return self.named(root);
+                }
+                let found = self.algebra.name(name, &self.text[self.at..]);
+                let (value, behind) = self.named(found)?;
+                self.at += behind;
+                Ok(value)
             }
-            _ => Err(self.wrong("a number or a parameter was expected")),
+            _ => Err(self.wrong("a number or a name was expected")),
         }
     }
 }
@@ -285,6 +409,7 @@ mod tests {
             ("-200/3", "-66.6666666666666666666666666667"),
             (".5+1.e1", "10.5"),
             ("a_1^0", "1"),
+            ("width**2/10", "640"),
         ] {
             let found = evaluate(text, &parameters()).unwrap();
             assert_eq!(found, value.parse().unwrap(), "{text}: {found}");
@@ -302,10 +427,13 @@ mod tests {
             ("(width", "`)` was expected"),
             ("width 2", "an operator was expected"),
             ("width^0.5", "a whole number"),
-            ("", "a number or a parameter"),
+            ("", "a number or a name"),
             ("1e50*1e50", "out of range"),
             ("((((9^20)^20)^20)^20)^20", "too large on the way"),
             (&deep, "in one another"),
+            ("sqrt(width)", "in equations only"),
+            ("|a-b|", "in equations only"),
+            ("|a-b", "a second `|`"),
         ] {
             let error = evaluate(text, &parameters()).unwrap_err();
             assert!(error.contains(words), "{text}: {error}");

@@ -7,7 +7,7 @@ use super::builder::ProblemBuilder;
 use super::error::{MAX_NAME, MAX_POINTS, Place, did_you_mean};
 use super::expression;
 use super::{Decimal, DecimalError, Problem, ProblemError, Published};
-use crate::constraint::KINDS;
+use crate::constraint::{EQUATIONS, KINDS};
 use crate::statement::{Tolerances, nearest};
 use std::collections::HashSet;
 use std::fmt;
@@ -257,6 +257,12 @@ pub(super) struct Reader<'a> {
 pub(super) struct Places {
     /// The parameters of the file.
     pub(super) parameters: Vec<(String, Decimal)>,
+    /// Where parameters begin that do not begin with their values.
+    from: Vec<(String, Decimal)>,
+    /// The parameters that stand in equations.
+    led: Vec<String>,
+    /// The equations of one's own: the key, the line and the text.
+    equations: Vec<(&'static str, Line, String)>,
     name: Option<usize>,
     dimension: Option<usize>,
     points: Vec<Option<usize>>,
@@ -305,6 +311,8 @@ impl<'a> Reader<'a> {
                 "spheres",
                 "arcs",
                 "bodies",
+                "unknowns",
+                "equations",
                 "constraints",
                 "homotopy",
                 "parameters",
@@ -312,13 +320,13 @@ impl<'a> Reader<'a> {
                 "published",
             ],
         )?;
-        let parameters = self.parameters(root)?;
-        let mut places = Places {
-            parameters,
-            ..Places::default()
-        };
+        let mut places = Places::default();
+        self.parameters(root, &mut places)?;
+        self.equations(root, &mut places)?;
 
         let dimension = match self.get(root, "dimension") {
+            // Numbers alone are nowhere.
+            None if root.contains_key("unknowns") && !root.contains_key("points") => 2,
             None => return Err(self.missing("dimension", "dimension = 2 (plane) or 3 (space)")),
             Some((line, item)) => {
                 places.dimension = line;
@@ -349,6 +357,7 @@ impl<'a> Reader<'a> {
         }
         builder = self.points(root, dimension, builder, &mut places)?;
         let (with_objects, objects) = self.objects(root, builder, &mut places)?;
+        let with_objects = self.numbers_of_parameters(&objects, with_objects, &mut places)?;
         builder = self.constraints(root, &objects, with_objects, &mut places)?;
         builder = self.homotopy(root, builder, &mut places)?;
         let published = self.published(root)?;
@@ -358,6 +367,17 @@ impl<'a> Reader<'a> {
         let problem = builder.finish();
         let mut problem = problem.map_err(|error| self.in_problem(&places, error))?;
         problem.tolerances = self.tolerances(root)?;
+        let named: Vec<usize> = (0..problem.constraints.len())
+            .filter(|&c| problem.constraints[c].kind == "values")
+            .collect();
+        for c in named {
+            // The numbers of parameters, and no other values, are computed by a name.
+            let value = problem.constraints[c].value.as_ref();
+            let name = value.and_then(Decimal::expression).map(str::to_owned);
+            if let Some(name) = name.filter(|name| places.led.iter().any(|led| led == name)) {
+                problem.labels.insert(problem.distances.len() + c, name);
+            }
+        }
         problem.parameters = places.parameters;
         Ok((problem, published))
     }
@@ -432,7 +452,10 @@ impl<'a> Reader<'a> {
     ) -> Result<ProblemBuilder, FileError> {
         const EXAMPLE: &str = "[points] and below it a line p1 = [0.0, 0.0, 0.0] for each point";
         let Some((line, item)) = self.get(root, "points") else {
-            return Err(self.missing("points", EXAMPLE));
+            return match root.contains_key("unknowns") {
+                true => Ok(builder),
+                false => Err(self.missing("points", EXAMPLE)),
+            };
         };
         places.points_table = line;
         let table = self.table(line, "points", item)?;
@@ -443,6 +466,7 @@ impl<'a> Reader<'a> {
         for (index, (name, item)) in table.iter().enumerate() {
             let line = self.line(table.key(name).and_then(Key::span));
             let key = format!("points.{name}");
+            self.is_in_place(line, "points", name, item)?;
             let wanted = "coordinates in brackets";
             let Some(array) = item.as_array() else {
                 return Err(self.wrong_kind(line, &key, wanted, item));
@@ -472,14 +496,23 @@ impl<'a> Reader<'a> {
     ) -> Result<ProblemBuilder, FileError> {
         const EXAMPLE: &str =
             "[constraints] and below it distances = [[\"p1\", \"p2\", 1.12], ...]";
-        let Some((line, item)) = self.get(root, "constraints") else {
-            return Err(self.missing("constraints", EXAMPLE));
+        let none = toml_edit::Table::new();
+        let table: &dyn TableLike = match self.get(root, "constraints") {
+            None if places.equations.is_empty() => {
+                return Err(self.missing("constraints", EXAMPLE));
+            }
+            None => &none,
+            Some((line, item)) => {
+                places.constraints = line;
+                self.table(line, "constraints", item)?
+            }
         };
-        places.constraints = line;
-        let table = self.table(line, "constraints", item)?;
         self.known_keys(table, "constraints.", &Self::constraint_keys())?;
         for &kind in KINDS {
-            builder = self.kind(kind, table, objects, builder, places)?;
+            builder = match kind.key() {
+                EQUATIONS => self.own_equations(builder, places),
+                _ => self.kind(kind, table, objects, builder, places)?,
+            };
         }
         self.squared_distances(table, builder, places)
     }
@@ -566,31 +599,133 @@ impl<'a> Reader<'a> {
         Ok(builder)
     }
 
-    fn parameters(&self, root: &dyn TableLike) -> Result<Vec<(String, Decimal)>, FileError> {
-        let mut out: Vec<(String, Decimal)> = Vec::new();
+    fn parameters(&self, root: &dyn TableLike, places: &mut Places) -> Result<(), FileError> {
+        let out = &mut places.parameters;
         let Some((line, item)) = self.get(root, "parameters") else {
-            return Ok(out);
+            return Ok(());
         };
         for (name, item) in self.table(line, "parameters", item)?.iter() {
             let shown: String = name.chars().take(60).collect();
             let key = format!("parameters.{shown}");
             let line = self.line(item.span()).or(line);
+            self.is_in_place(line, "parameters", name, item)?;
             if !expression::is_name(name) {
                 let wanted = "a name of letters, digits and underscores, a letter first";
                 return Err(self.wrong(line, &key, wanted, format!("`{shown}`")));
             }
             let wanted = "a number, or an expression in quotes of those before, \"width/2 + 3\"";
-            let value = item
-                .as_value()
-                .ok_or_else(|| self.wrong_kind(line, &key, wanted, item))?;
-            let value = match value {
-                Value::String(text) => self.computed(line, &key, text.value(), &out)?,
-                Value::Integer(_) | Value::Float(_) => self.number(line, &key, value)?,
-                _ => return Err(self.wrong_kind(line, &key, wanted, item)),
+            let number = |value: &Value, out: &[(String, Decimal)]| match value {
+                Value::String(text) => self.computed(line, &key, text.value(), out),
+                Value::Integer(_) | Value::Float(_) => self.number(line, &key, value),
+                _ => Err(self.wrong_kind(line, &key, wanted, item)),
             };
+            let value = match item.as_table_like() {
+                None => item.as_value(),
+                Some(parts) => {
+                    self.known_keys(parts, &format!("{key}."), &["value", "from"])?;
+                    if let Some(from) = parts.get("from").and_then(Item::as_value) {
+                        let from = number(from, out)?;
+                        places.from.push((name.to_owned(), from));
+                    }
+                    parts.get("value").and_then(Item::as_value)
+                }
+            };
+            let value = value.ok_or_else(|| self.wrong_kind(line, &key, wanted, item))?;
+            let value = number(value, out)?;
             out.push((name.to_owned(), value));
         }
-        Ok(out)
+        Ok(())
+    }
+
+    /// The equations of one's own, as texts: before all tables, or among the constraints.
+    fn equations(&self, root: &dyn TableLike, places: &mut Places) -> Result<(), FileError> {
+        let constraints = root.get("constraints").and_then(Item::as_table_like);
+        let tables = [
+            ("constraints.equations", constraints),
+            (EQUATIONS, Some(root)),
+        ];
+        for (key, table) in tables {
+            let Some((line, item)) = table.and_then(|table| self.get(table, EQUATIONS)) else {
+                continue;
+            };
+            let wanted = "a list of equations in quotes, [\"x^2 + y^2 = 2\", \"x*y = 1\"]";
+            let list = item.as_array();
+            let list = list.ok_or_else(|| self.wrong_kind(line, key, wanted, item))?;
+            for value in list {
+                let line = self.line(value.span()).or(line);
+                let text = value.as_str();
+                let text = text.ok_or_else(|| self.wrong_value(line, key, wanted, value))?;
+                places.equations.push((key, line, text.to_owned()));
+            }
+        }
+        Ok(())
+    }
+
+    /// A list of equations that stands in a table of something else, as everything below a table's heading does.
+    pub(super) fn is_in_place(
+        &self,
+        line: Line,
+        table: &str,
+        name: &str,
+        item: &Item,
+    ) -> Result<(), FileError> {
+        let is_list = item
+            .as_array()
+            .is_some_and(|list| list.iter().all(Value::is_str));
+        if name != EQUATIONS || !is_list {
+            return Ok(());
+        }
+        let wanted = "before the first [table] of the file, or under [constraints]";
+        let found = format!("in [{table}], as all that follows its heading");
+        Err(self.wrong(line, EQUATIONS, wanted, found))
+    }
+
+    /// Parameters that stand in equations are unknowns that are led to their values.
+    fn numbers_of_parameters(
+        &self,
+        objects: &HashSet<String>,
+        mut builder: ProblemBuilder,
+        places: &mut Places,
+    ) -> Result<ProblemBuilder, FileError> {
+        for (name, value) in &places.parameters {
+            let mut equations = places.equations.iter();
+            let used = equations.find(|(_, _, text)| expression::names(text).any(|n| n == name));
+            let from = places.from.iter().find(|(other, _)| other == name);
+            match (used, from) {
+                (None, None) => continue,
+                (None, Some(_)) => {
+                    let key = format!("parameters.{name}.from");
+                    let found = "one that stands in none".to_owned();
+                    return Err(self.wrong(None, &key, "of a parameter in `equations`", found));
+                }
+                (Some((key, line, _)), _) if objects.contains(name) => {
+                    let found = format!("`{name}`, which is both");
+                    let wanted = "names that mean one thing, an object or a parameter";
+                    return Err(self.wrong(*line, key, wanted, found));
+                }
+                _ => {}
+            }
+            places.led.push(name.clone());
+            places.objects.push(("parameters", None));
+            builder = builder.unknown(name, from.map_or(value, |(_, from)| from).clone());
+        }
+        Ok(builder)
+    }
+
+    /// The values of those parameters, and the equations.
+    fn own_equations(&self, mut builder: ProblemBuilder, places: &mut Places) -> ProblemBuilder {
+        for name in &places.led {
+            let mut parameters = places.parameters.iter();
+            let found = parameters.find(|(other, _)| other == name);
+            let (_, value) = found.expect("what is led is a parameter");
+            places.constraints_of_kinds.push(("parameters", None));
+            builder = builder.dimension("values", [name], value.clone().computed_by(name));
+        }
+        for (key, line, text) in &places.equations {
+            places.constraints_of_kinds.push((key, *line));
+            builder = builder.equation(text);
+        }
+        builder
     }
 
     /// The number that an expression says.
@@ -872,7 +1007,10 @@ impl<'a> Reader<'a> {
                 return self.fail(line, FileFault::Problem { key, error });
             }
             Place::Constraint(i) => {
-                let (key, line) = named(&places.constraints_of_kinds, i, "constraints.");
+                let of = places.constraints_of_kinds.get(i).map_or("", |of| of.0);
+                let is_whole = [EQUATIONS, "constraints.equations", "parameters"].contains(&of);
+                let within = if is_whole { "" } else { "constraints." };
+                let (key, line) = named(&places.constraints_of_kinds, i, within);
                 return self.fail(line, FileFault::Problem { key, error });
             }
             Place::Detour => ("homotopy.detour: ", places.detour),

@@ -11,6 +11,7 @@ mod draft;
 mod error;
 pub(crate) mod expression;
 mod file;
+mod formula;
 mod published;
 mod reference;
 mod vocabulary;
@@ -18,8 +19,8 @@ mod write;
 
 pub use crate::decimal::{Decimal, DecimalError};
 pub use crate::statement::{
-    AXES, Constraint, DEPENDS, Distance, HomotopyChoices, Item, Object, Point, Problem, Shape,
-    Target, Tolerances, free_coordinates,
+    AXES, Atom, Constraint, DEPENDS, Distance, Formula, HomotopyChoices, Item, Object, Point,
+    Problem, Shape, Target, Terms, Tolerances, free_coordinates,
 };
 pub(crate) use crate::statement::{counted, list, most_along};
 #[cfg(feature = "explore")]

@@ -9,7 +9,9 @@ use std::collections::HashSet;
 use toml_edit::{Item, Key, TableLike, Value};
 
 /// The tables of objects.
-pub(super) const TABLES: [&str; 6] = ["lines", "planes", "circles", "spheres", "arcs", "bodies"];
+pub(super) const TABLES: [&str; 7] = [
+    "lines", "planes", "circles", "spheres", "arcs", "bodies", "unknowns",
+];
 
 /// How an object may be written, by table.
 fn wanted(table: &str) -> &'static str {
@@ -17,6 +19,7 @@ fn wanted(table: &str) -> &'static str {
         "lines" => "[\"point\", \"point\"], or { point = [...], direction = [...] }",
         "planes" => "[\"point\", \"point\", \"point\"], or { point = [...], normal = [...] }",
         "circles" | "spheres" => "{ center = \"point\", radius = number }",
+        "unknowns" => "a number, where the path begins",
         "arcs" => "{ center = \"point\", start = \"point\", end = \"point\" }",
         _ => "points with their coordinates in the body's own frame, { p1 = [...], p2 = [...] }",
     }
@@ -39,6 +42,7 @@ impl Reader<'_> {
             for (name, item) in objects.iter() {
                 let line = self.line(objects.key(name).and_then(Key::span)).or(line);
                 let key = format!("{table}.{}", name.chars().take(60).collect::<String>());
+                self.is_in_place(line, table, name, item)?;
                 builder = self.object(table, line, &key, name, item, builder)?;
                 places.objects.push((table, line));
                 names.insert(name.to_owned());
@@ -57,6 +61,10 @@ impl Reader<'_> {
         builder: ProblemBuilder,
     ) -> Result<ProblemBuilder, FileError> {
         let wrong = || self.wrong_kind(line, key, wanted(table), item);
+        if table == "unknowns" {
+            let value = item.as_value().ok_or_else(wrong)?;
+            return Ok(builder.unknown(name, self.number(line, key, value)?));
+        }
         if item.is_array() {
             let points = self.point_names(line, key, item)?;
             return match (table, points.as_slice()) {

@@ -89,6 +89,9 @@ impl Problem {
         let constraints = self.constraints.iter().filter(|c| c.kind == kind);
         constraints
             .map(|constraint| {
+                if let Some(formula) = &constraint.formula {
+                    return quoted(&formula.text);
+                }
                 let items = constraint.items.iter();
                 let mut parts: Vec<String> = items
                     .map(|&item: &Item| quoted(self.item_name(item)))
@@ -141,6 +144,7 @@ impl Problem {
                         name(start),
                         name(end)
                     ),
+                    Shape::Number { sketch } => number(sketch),
                     Shape::Body { points, local } => {
                         let members = points.iter().zip(local).map(|(&p, local)| {
                             let key = toml_edit::Key::new(&self.points[p].name);

@@ -11,7 +11,7 @@ use crate::complete::{Among, Choice, Complete, Constructed, Method, Status, Test
 use crate::constraint::{Symmetry, supposed_lengths, symmetry};
 use crate::interval::Interval;
 use crate::places::Each as _;
-use crate::problem::{Problem, counted, list};
+use crate::problem::{Object, Problem, Shape, counted, list};
 use crate::track::Mode;
 use std::fmt::Write;
 
@@ -424,7 +424,7 @@ fn verdict(problem: &Problem, result: &Complete) -> String {
         .iter()
         .map(|name| format!("`{name}`"))
         .collect();
-    let mut words = without_sides(result);
+    let mut words = without_sides(problem, result);
     if !names.is_empty() && result.count != Some(0) {
         let (of, them) = match names.len() {
             1 => ("", "it"),
@@ -458,8 +458,8 @@ fn supposed(problem: &Problem) -> String {
 }
 
 /// The same but for what is said of sides and lengths.
-fn without_sides(result: &Complete) -> String {
-    let (up_to, different) = counted_once(result.symmetry);
+fn without_sides(problem: &Problem, result: &Complete) -> String {
+    let (up_to, different) = counted_once(problem, result.symmetry);
     let (count, have) = match &result.tested {
         None => (counted_solutions(result.count), String::new()),
         Some(tested) => (
@@ -603,8 +603,24 @@ fn counted_solutions(count: Option<u64>) -> String {
 }
 
 /// Up to what figures are counted once, and what is proved of any two then.
-fn counted_once(symmetry: Symmetry) -> (&'static str, &'static str) {
+fn counted_once(problem: &Problem, symmetry: Symmetry) -> (&'static str, &'static str) {
+    let of_numbers = |object: &Object| matches!(object.shape, Shape::Number { .. });
+    let has_numbers = problem.objects.iter().any(of_numbers);
     match symmetry {
+        // The same figure with other numbers is another solution.
+        _ if problem.points.is_empty() => ("", "no two are the same"),
+        Symmetry::Isometries if has_numbers => (
+            " up to rigid motions and reflections",
+            "no two have the same numbers and are congruent, even up to reflection",
+        ),
+        Symmetry::Motions if has_numbers => (
+            " up to rigid motions",
+            "no two have the same numbers and are the same figure moved",
+        ),
+        Symmetry::Identity if has_numbers => (
+            " in the coordinates of the file",
+            "no two are the same figure with the same numbers",
+        ),
         Symmetry::Isometries => (
             " up to rigid motions and reflections",
             "no two are congruent, even up to reflection",
@@ -637,7 +653,7 @@ pub fn cover_theorem(verdict: &CoverVerdict, took: std::time::Duration) -> Strin
     let count = counted_solutions(verdict.solutions);
     let seconds = took.as_secs_f64();
     let parts = counted(verdict.parts as usize, "part");
-    let (up_to, different) = counted_once(symmetry(&verdict.problem));
+    let (up_to, different) = counted_once(&verdict.problem, symmetry(&verdict.problem));
     let exactly = verdict.solutions.map_or("", |_| "exactly ");
     let supposed = supposed(&verdict.problem);
     match &verdict.flaw {

@@ -302,7 +302,12 @@ fn write_table(
             }
             writeln!(out)?;
         }
+        // Of equations of one's own what people named.
+        let is_named = |name: &str| problem.objects.iter().any(|object| object.name == name);
         for &unknown in &others {
+            if lowered.is_of_numbers() && !is_named(&lowered.system.unknowns[unknown].name) {
+                continue;
+            }
             write!(out, "  {}", lowered.system.unknowns[unknown].name)?;
             show(out, coordinate(lowered, one, nature, Some(unknown)))?;
             writeln!(out)?;
@@ -317,7 +322,10 @@ fn write_table(
     } else if !all && listed.len() < result.natures.len() {
         writeln!(out, "\nReal ones are listed; `--all` lists the others too.")?;
     }
-    writeln!(out, "\ngauge      {}", lowered.system.gauge)?;
+    writeln!(out)?;
+    if !lowered.is_of_numbers() {
+        writeln!(out, "gauge      {}", lowered.system.gauge)?;
+    }
     let effort = result.effort;
     let paths = effort.paths;
     write!(out, "paths      {paths}")?;

@@ -161,7 +161,10 @@ fn constraints_of(problem: &Problem) -> Vec<Constraint<'_>> {
         Constraint {
             kind: &constraint.kind,
             items: items.map(|&item| problem.item_name(item)).collect(),
-            name: name(problem.distances.len() + index, constraint.value.is_some()),
+            name: match &constraint.formula {
+                Some(formula) => Some(formula.text.clone()),
+                None => name(problem.distances.len() + index, constraint.value.is_some()),
+            },
             value: constraint.value.as_ref().map(Exact),
         }
     });

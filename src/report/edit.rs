@@ -9,7 +9,7 @@ use crate::edit::{
 };
 use crate::interval::Interval;
 use crate::order::InOrder;
-use crate::problem::{Decimal, Problem, counted, list};
+use crate::problem::{Decimal, Problem, Shape, counted, list};
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
 
@@ -223,10 +223,14 @@ pub fn limit_in_words(problem: &Problem, limit: &Limit) -> String {
         .filter(|m| m.1 > 1e-3)
         .map(|m| m.0)
         .collect();
-    let instant = format!(
-        "for an instant it can move with all its dimensions as they are, {} most",
-        named(problem, &moving)
-    );
+    let which = match moving.is_empty() {
+        true => String::new(),
+        false => format!(", {} most", named(problem, &moving)),
+    };
+    let instant = format!("for an instant it can move with all its dimensions as they are{which}");
+    if problem.points.is_empty() {
+        return "The equations are singular there: two solutions meet.".to_owned();
+    }
     if limit.flat.is_empty() {
         return format!("The figure there is at a dead centre: {instant}.");
     }
@@ -276,19 +280,26 @@ fn write_edit(
     moved: Moved,
 ) -> std::fmt::Result {
     if moved.tubes > 0 {
+        let far = match problem.points.is_empty() {
+            true => String::new(),
+            false => format!(": no point moved by more than {:.1e}", moved.distance),
+        };
         writeln!(
             out,
-            "The sketch was led to its own dimensions first, proved likewise: no point moved by more than {:.1e}.",
-            moved.distance
+            "The sketch was led to its own dimensions first, proved likewise{far}."
         )?;
     }
     let what = match edited.ending {
+        Ending::Reached if problem.points.is_empty() => "Solution",
+        Ending::Limit(_) if problem.points.is_empty() => "Solution at the limit",
+        _ if problem.points.is_empty() => "Old solution",
         Ending::Reached => "Figure, in the coordinates of the file",
         Ending::Limit(_) => "Figure at the limit, in the coordinates of the file",
         _ => "Old figure, in the coordinates of the file",
     };
     writeln!(out, "\n{what}")?;
     write_points(out, problem, &edited.points)?;
+    write_numbers(out, problem, &edited.numbers)?;
     writeln!(
         out,
         "\nEvery coordinate differs from the exact one by at most 1 in its last digit shown."
@@ -476,10 +487,17 @@ pub fn edit_to_document(problem: &Problem, edited: &Edited, session: &Session) -
     let mut value = edit_to_value(problem, edited, session.moved());
     // The session's figure is the new one where that was reached.
     if edited.ending == Ending::Reached {
-        let radii = problem.objects.iter().zip(session.radii());
-        let radii = radii.filter(|(_, radius)| *radius > 0.0);
-        let radii = radii.map(|(object, radius)| (object.name.clone(), json!(radius)));
-        value["radii"] = Value::Object(radii.collect());
+        let numbers = || problem.objects.iter().zip(session.numbers());
+        let of = |are_unknowns: bool| -> Map<String, Value> {
+            let all =
+                numbers().filter(|(o, _)| matches!(o.shape, Shape::Number { .. }) == are_unknowns);
+            all.filter_map(|(object, number)| Some((object.name.clone(), json!(number?.mid()))))
+                .collect()
+        };
+        value["radii"] = Value::Object(of(false));
+        if numbers().any(|(o, _)| matches!(o.shape, Shape::Number { .. })) {
+            value["unknowns"] = Value::Object(of(true));
+        }
     }
     Drawing::in_place("edit", problem).with(value)
 }
@@ -617,4 +635,36 @@ fn left_out(account: &Account) -> (Vec<String>, Vec<String>) {
         those.map(|one| one.name.clone()).collect()
     };
     (names(Why::Follows), names(Why::NothingNew))
+}
+
+/// The radii of circles, or the values of unknown numbers, by name.
+pub(super) fn numbers_to_value(
+    problem: &Problem,
+    numbers: &[Option<Interval>],
+    are_unknowns: bool,
+) -> Value {
+    let objects = problem.objects.iter().zip(numbers);
+    let objects = objects.filter(|(o, _)| matches!(o.shape, Shape::Number { .. }) == are_unknowns);
+    let all: Map<String, Value> = objects
+        .filter_map(|(object, number)| Some((object.name.clone(), bounds((*number)?))))
+        .collect();
+    Value::Object(all)
+}
+
+/// The radii of circles and the values of unknown numbers, a line each.
+pub(super) fn write_numbers(
+    out: &mut String,
+    problem: &Problem,
+    numbers: &[Option<Interval>],
+) -> std::fmt::Result {
+    for (object, number) in problem.objects.iter().zip(numbers) {
+        let Some(number) = number.map(certain_digits) else {
+            continue;
+        };
+        match object.shape {
+            Shape::Number { .. } => writeln!(out, "  {} = {number}", object.name)?,
+            _ => writeln!(out, "  {}: radius {number}", object.name)?,
+        }
+    }
+    Ok(())
 }

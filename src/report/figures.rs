@@ -1,12 +1,10 @@
 //! The figures of a sketch in its own frame, as its blocks give them.
 
-use super::digits::certain_digits;
 use super::drawing::Drawing;
-use super::edit::{bounds, points_to_value, write_points};
+use super::edit::{numbers_to_value, points_to_value, write_numbers, write_points};
 use crate::blocks::{BlockAccount, Chosen, Comparison, Figures, First, Sense, Way};
-use crate::interval::Interval;
 use crate::problem::Shape;
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 use std::fmt::Write;
 
 /// Figures that are listed in a table: as long as they fit in so many lines.
@@ -244,7 +242,7 @@ fn write_figures(out: &mut String, figures: &Figures, listed: Listed) -> std::fm
     let problem = figures.problem();
     let count = figures.count().unwrap_or(u64::MAX);
     let circles = problem.objects.iter();
-    let circles = circles.filter(|o| matches!(o.shape, Shape::Round { .. }));
+    let circles = circles.filter(|o| matches!(o.shape, Shape::Round { .. } | Shape::Number { .. }));
     let each = (problem.points.len() + circles.count()) as u64 + 2;
     let some = match count.saturating_mul(each) <= LINES as u64 {
         true => count,
@@ -255,13 +253,9 @@ fn write_figures(out: &mut String, figures: &Figures, listed: Listed) -> std::fm
         let chosen = chosen_in_words(&figures.chosen(number));
         writeln!(out, "\nFigure {}{chosen}", number + 1)?;
         write_senses(out, figures, number)?;
-        let (points, radii) = figures.figure(number);
+        let (points, numbers) = figures.figure(number);
         write_points(out, problem, &points)?;
-        for (object, radius) in problem.objects.iter().zip(&radii) {
-            if let Some(radius) = radius {
-                writeln!(out, "  {}: radius {}", object.name, certain_digits(*radius))?;
-            }
-        }
+        write_numbers(out, problem, &numbers)?;
     }
     if !matches!(listed, Listed::Only(_)) && count > numbers.end {
         writeln!(
@@ -382,18 +376,23 @@ pub fn figures_to_value(figures: &Figures, listed: Listed) -> Value {
     let count = figures.count();
     let numbers = listed.numbers(count.unwrap_or(u64::MAX), IN_JSON);
     let of_number = |number: u64| {
-        let (points, radii) = figures.figure(number);
+        let (points, numbers) = figures.figure(number);
         let chosen = figures.chosen(number);
         let chosen = chosen
             .iter()
             .map(|(block, solution)| json!({"block": block, "solution": solution}));
-        json!({
+        let mut value = json!({
             "number": number,
             "choices": chosen.collect::<Vec<_>>(),
             "points": points_to_value(problem, &points),
-            "radii": radii_to_value(figures, &radii),
+            "radii": numbers_to_value(problem, &numbers, false),
             "senses": senses_to_value(figures, number),
-        })
+        });
+        let unknowns = numbers_to_value(problem, &numbers, true);
+        if unknowns.as_object().is_some_and(|all| !all.is_empty()) {
+            value["unknowns"] = unknowns;
+        }
+        value
     };
     let senses = figures.senses().map(|senses| {
         let with = figures.with_senses();
@@ -458,12 +457,4 @@ fn senses_to_value(figures: &Figures, number: u64) -> Value {
         "flat": named(Comparison::Flat),
         "undecided": named(Comparison::Undecided),
     })
-}
-
-fn radii_to_value(figures: &Figures, radii: &[Option<Interval>]) -> Value {
-    let objects = figures.problem().objects.iter().zip(radii);
-    let all: Map<String, Value> = objects
-        .filter_map(|(object, radius)| Some((object.name.clone(), bounds((*radius)?))))
-        .collect();
-    Value::Object(all)
 }

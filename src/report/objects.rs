@@ -19,6 +19,7 @@ enum At<C> {
     Line { point: [C; 3], direction: [C; 3] },
     Plane { point: [C; 3], normal: [C; 3] },
     Round { center: [C; 3], radius: C },
+    Number(C),
 }
 
 impl<'a, C: Coordinate> Objects<'a, C> {
@@ -39,6 +40,7 @@ impl<'a, C: Coordinate> Objects<'a, C> {
                     center: three(center),
                     radius: number(radius),
                 },
+                Located::Number(value) => At::Number(number(value)),
                 Located::Body => return None,
             })
         };
@@ -84,6 +86,7 @@ impl<'a> Objects<'a, f64> {
                 }
             }
             Shape::Body { .. } => Located::Body,
+            Shape::Number { sketch } => Located::Number(enclose(sketch)),
         });
         let objects: Vec<Located> = objects.collect();
         Objects::new(problem, &objects, |x| x.mid())
@@ -117,6 +120,7 @@ impl<C: Coordinate> Serialize for Written<'_, C> {
                 map.serialize_entry("point", &place(point))?;
                 map.serialize_entry("normal", &place(normal))?;
             }
+            At::Number(value) => map.serialize_entry("value", &value.written())?,
             At::Round { center, radius } => {
                 map.serialize_entry("center", &place(center))?;
                 map.serialize_entry("radius", &radius.written())?;

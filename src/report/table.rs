@@ -431,6 +431,9 @@ pub(super) fn write_objects(
                     digits(radius)
                 )?;
             }
+            (Shape::Number { .. }, Located::Number(value)) => {
+                writeln!(out, "  {name} = {}", digits(value))?;
+            }
             _ => {}
         }
     }

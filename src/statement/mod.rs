@@ -6,9 +6,11 @@ use crate::decimal::Decimal;
 use num_rational::BigRational;
 use std::collections::BTreeMap;
 
+mod formula;
 mod names;
 mod object;
 
+pub use formula::{Atom, Formula, Terms};
 pub use names::DEPENDS;
 pub(crate) use names::{counted, list, nearest};
 pub(crate) use object::most_along;
@@ -148,6 +150,9 @@ impl Problem {
             return self.distance_name(index);
         };
         let constraint = &self.constraints[c];
+        if let Some(formula) = &constraint.formula {
+            return formula.text.clone();
+        }
         let items: Vec<&str> = constraint
             .items
             .iter()

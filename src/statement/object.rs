@@ -1,11 +1,11 @@
 //! Objects beside points, and constraints beside distances, as plain data. What they mean is said in
 //! [`crate::constraint`].
 
-use super::Problem;
+use super::{Formula, Problem};
 use crate::decimal::Decimal;
 use num_traits::Signed;
 
-/// A line, plane, circle, sphere, arc or rigid body.
+/// A line, plane, circle, sphere, arc, rigid body, or an unknown number.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Object {
     /// The name used in constraints and results; no point has it.
@@ -15,7 +15,7 @@ pub struct Object {
 }
 
 impl Object {
-    /// What people call it, in a problem of that dimension: `line`, `plane`, `circle`, `sphere`, `arc` or `body`.
+    /// What people call it, in a problem of that dimension: `line`, `plane`, `circle`, `sphere`, `arc`, `body` or `unknown`.
     pub fn kind(&self, dimension: usize) -> &'static str {
         match &self.shape {
             Shape::Line(_) | Shape::FreeLine { .. } => "line",
@@ -24,6 +24,7 @@ impl Object {
             Shape::Round { .. } => "sphere",
             Shape::Arc { .. } => "arc",
             Shape::Body { .. } => "body",
+            Shape::Number { .. } => "unknown",
         }
     }
 
@@ -33,7 +34,7 @@ impl Object {
         match &self.shape {
             Shape::Line(points) => points.to_vec(),
             Shape::Plane(points) => points.to_vec(),
-            Shape::FreeLine { .. } | Shape::FreePlane { .. } => Vec::new(),
+            Shape::FreeLine { .. } | Shape::FreePlane { .. } | Shape::Number { .. } => Vec::new(),
             Shape::Round { center, .. } => vec![*center],
             Shape::Arc { center, start, end } => vec![*center, *start, *end],
             Shape::Body { points, .. } => points.clone(),
@@ -119,6 +120,11 @@ pub enum Shape {
         /// Their coordinates in the body's own frame, in the same order.
         local: Vec<[Decimal; 3]>,
     },
+    /// A number that is sought, for equations of one's own.
+    Number {
+        /// Its value in the sketch.
+        sketch: Decimal,
+    },
 }
 
 /// A constraint that is not a distance between two points.
@@ -130,6 +136,8 @@ pub struct Constraint {
     pub items: Vec<Item>,
     /// The value to meet, for kinds that have one: a length in the problem's unit, or degrees.
     pub value: Option<Decimal>,
+    /// The equation that it is, of the kind `equations`; no other kind has one.
+    pub formula: Option<Box<Formula>>,
 }
 
 /// What a constraint is about.
@@ -180,6 +188,9 @@ impl Problem {
     /// ```
     pub fn constraint_name(&self, index: usize) -> String {
         let constraint = &self.constraints[index];
+        if let Some(formula) = &constraint.formula {
+            return formula.text.clone();
+        }
         let items = constraint.items.iter().map(|&item| self.item_name(item));
         let mut parts: Vec<String> = items.map(str::to_owned).collect();
         parts.extend(constraint.value.as_ref().map(Decimal::to_string));

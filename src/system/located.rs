@@ -35,6 +35,8 @@ pub enum Located {
     },
     /// A rigid body, which is where its points are.
     Body,
+    /// An unknown number.
+    Number(Interval),
 }
 
 impl Located {
@@ -96,6 +98,7 @@ impl Homotopy {
                     radius: value(own[0]) * unit,
                 },
                 Shape::Body { .. } => Located::Body,
+                Shape::Number { .. } => Located::Number(value(own[0])),
             })
             .collect()
     }

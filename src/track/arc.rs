@@ -29,15 +29,18 @@ impl Figure {
         }
     }
 
+    /// An unknown, in the homotopy's unit.
+    pub fn enclosure(&self, unknown: usize) -> Interval {
+        let radius = self.radius[unknown];
+        point(self.centre[unknown]) + point(self.low[unknown]) + hull(-radius, radius)
+    }
+
     /// All points of the figure in the gauge, in the homotopy's unit.
     pub fn points(&self, homotopy: &Homotopy) -> Vec<[Interval; 3]> {
         let (d, m) = (homotopy.dimension, homotopy.equations);
         let coordinate = |p: usize, axis: usize| -> Interval {
             match homotopy.gauge.variable.get(p * d + axis) {
-                Some(&i) if axis < d && i < m => {
-                    let around = hull(-self.radius[i], self.radius[i]);
-                    point(self.centre[i]) + point(self.low[i]) + around
-                }
+                Some(&i) if axis < d && i < m => self.enclosure(i),
                 _ => point(0.0),
             }
         };

@@ -4,9 +4,9 @@ use super::arc::{ArcEnd, ArcRun, Figure};
 use super::certified::arcs;
 use super::{
     Control, Driving, LARGEST_SQUARE, Mode, Options, Outcome, Place, Solution, Space, StartError,
-    Status, Stop, StopKind,
+    Status, Stop, StopKind, relative_width,
 };
-use crate::interval::{Interval, hull, point};
+use crate::interval::{hull, point};
 use crate::problem::Problem;
 use crate::system::Homotopy;
 use std::sync::atomic::Ordering;
@@ -130,23 +130,20 @@ fn account(homotopy: &Homotopy, space: Space, run: ArcRun, clock: Instant) -> Fi
 fn solution(homotopy: &Homotopy, figure: &Figure, arc: f64) -> Solution {
     let unit = point(homotopy.unit);
     let mut points = figure.points(homotopy);
-    let all: Vec<&mut Interval> = points.iter_mut().flatten().collect();
-    let (mut widest, mut largest) = (0.0f64, 0.0f64);
-    for x in all {
+    for x in points.iter_mut().flatten() {
         *x *= unit;
-        widest = widest.max(x.wid());
-        largest = largest.max(x.mag());
     }
     let unknown = |i: usize| {
         let (x, radius) = (figure.centre[i], figure.radius[i]);
         point(x) + point(figure.low[i]) + hull(-radius, radius)
     };
+    let objects = homotopy.locate(&points, unknown);
     Solution {
-        objects: homotopy.locate(&points, unknown),
+        width: relative_width(&points, &objects),
+        objects,
         auxiliary: homotopy.auxiliary_unknowns().map(unknown).collect(),
         points,
         class: 0,
-        width: if largest > 0.0 { widest / largest } else { 0.0 },
         place: Some(Place {
             arc,
             rising: true,

@@ -70,18 +70,27 @@ fn is_proper(homotopy: &Homotopy, x: &DVector<f64>) -> bool {
     lengths.all(|(k, _)| x[first + k] > 1e-6)
 }
 
-/// The points that move most, those first that move by more.
+/// The points that move most, or of a problem without points the unknowns; those first that move by more.
 fn names(homotopy: &Homotopy, motions: &[&DVector<f64>]) -> Vec<String> {
     let of_point = |p: usize| -> f64 {
         let coordinates = (0..homotopy.dimension).filter_map(|axis| homotopy.coordinate(p, axis));
         let squares = coordinates.map(|i| motions.iter().map(|v| v[i] * v[i]).sum::<f64>());
         squares.sum::<f64>().sqrt()
     };
-    let mut all: Vec<(usize, f64)> = (0..homotopy.points).map(|p| (p, of_point(p))).collect();
+    let of_unknown = |u: usize| motions.iter().map(|v| v[u] * v[u]).sum::<f64>().sqrt();
+    let mut all: Vec<(usize, f64)> = match homotopy.points {
+        0 => (0..homotopy.equations)
+            .map(|u| (u, of_unknown(u)))
+            .collect(),
+        points => (0..points).map(|p| (p, of_point(p))).collect(),
+    };
     let most = all.iter().fold(0.0, |max: f64, x| max.max(x.1));
     all.retain(|x| x.1 > 1e-3 * most);
     all.sort_by(|a, b| b.1.total_cmp(&a.1));
-    let name = |&(p, _): &(usize, f64)| homotopy.point_names.get(p).cloned();
+    let name = |&(p, _): &(usize, f64)| match homotopy.points {
+        0 => Some(homotopy.tail.unknowns.get(p)?.name.clone()),
+        _ => homotopy.point_names.get(p).cloned(),
+    };
     all.iter().filter_map(name).collect()
 }
 

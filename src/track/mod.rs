@@ -26,6 +26,7 @@ pub use control::{Control, Limit, Progress};
 pub use ends::{Away, EndKind, PathEnd};
 pub use first::{First, first};
 pub use options::{Options, Preset};
+pub(crate) use outcome::relative_width;
 pub use outcome::{Driving, Mode, Outcome, Place, Solution, Space, Status};
 pub use stop::{Stop, StopKind};
 pub use witness::{TubeSeen, Witness};

@@ -81,7 +81,7 @@ pub struct Solution {
     pub auxiliary: Vec<Interval>,
     /// Solutions with the same class are congruent up to reflection.
     pub class: usize,
-    /// The widest coordinate's width, divided by the size (largest coordinate) of the figure.
+    /// The widest coordinate's width, divided by the size (largest coordinate) of the figure; unknown numbers are among them.
     pub width: f64,
     /// Where the path meets it. Float runs do not tell.
     pub place: Option<Place>,
@@ -98,6 +98,19 @@ pub struct Solution {
 
 fn middle(place: &[Interval; 3]) -> Point3<f64> {
     Point3::from(place.each(|x| x.mid()))
+}
+
+/// The width of the widest coordinate or unknown number, divided by the size of the largest; 0 where all are exactly zero.
+pub(crate) fn relative_width(points: &[[Interval; 3]], objects: &[Located]) -> f64 {
+    let numbers = objects.iter().filter_map(|object| match object {
+        Located::Number(number) => Some(number),
+        _ => None,
+    });
+    let all = points.iter().flatten().chain(numbers);
+    let (widest, largest) = all.fold((0.0f64, 0.0f64), |(widest, largest), x| {
+        (widest.max(x.wid()), largest.max(x.mag()))
+    });
+    if largest > 0.0 { widest / largest } else { 0.0 }
 }
 
 impl Solution {

@@ -44,7 +44,9 @@ impl File {
         let setting = [Setting::parse(&self.problem, set).unwrap()];
         let edited = session.edit(&setting);
         assert_eq!(edited.ending, Ending::Reached, "{}: {set}", self.name);
-        let (points, radii) = (session.figure(), session.radii());
+        let (points, numbers) = (session.figure(), session.numbers());
+        let numbers: Vec<Option<f64>> = numbers.iter().map(|x| x.map(|x| x.mid())).collect();
+        let radii: Vec<f64> = numbers.iter().map(|x| x.unwrap_or(0.0)).collect();
         let mut changed = self.problem.clone();
         setting[0].apply(&mut changed);
         let bytes = match &self.imported {
@@ -57,7 +59,7 @@ impl File {
             }
             None => {
                 let text = std::str::from_utf8(&self.bytes).unwrap();
-                rewrite(text, &changed, &points, &radii)
+                rewrite(text, &changed, &points, &numbers)
                     .unwrap()
                     .into_bytes()
             }

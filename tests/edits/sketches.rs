@@ -18,7 +18,8 @@ fn edit(session: &mut Session, text: &str) -> Edited {
 }
 
 fn rewritten(sketch: &Imported, bytes: &[u8], session: &Session) -> Vec<u8> {
-    let (points, radii) = (session.figure(), session.radii());
+    let (points, numbers) = (session.figure(), session.numbers());
+    let radii: Vec<f64> = numbers.iter().map(|x| x.map_or(0.0, |x| x.mid())).collect();
     let figure = Figure {
         points: &points,
         radii: &radii,

@@ -219,3 +219,21 @@ def test_ctrl_c_ends_a_long_run():
         run.send_signal(signal.SIGINT)
         _, errors = run.communicate(timeout=30)
     assert "KeyboardInterrupt" in errors
+
+
+def test_equations_of_ones_own():
+    circle = krawl.system(
+        ["x**2 + y**2 - a", "x*y = 1"],
+        {"x": 1.2, "y": 0.5},
+        {"a": {"value": 4, "from": 2.5}},
+    )
+    every = krawl.complete(circle)
+    assert every.status == "complete" and len(every.solutions) == 4
+    for solution in every.solutions:
+        x, y = solution.unknowns["x"], solution.unknowns["y"]
+        assert abs(x * x + y * y - 4) < 1e-12 and abs(x * y - 1) < 1e-12
+    edited = krawl.edit(circle, {"a": 5})
+    assert edited.status == "reached"
+    assert abs(edited.unknowns["x"] ** 2 + edited.unknowns["y"] ** 2 - 5) < 1e-9
+    with pytest.raises(krawl.Error, match="no unknown or parameter `z`"):
+        krawl.complete(krawl.system(["x + z"], {"x": 1}))

@@ -12,6 +12,7 @@ mod complete_hard;
 mod complex_frames;
 mod complex_infinity;
 mod complex_solutions;
+mod equations;
 mod explore;
 mod exports;
 mod falling_apart;

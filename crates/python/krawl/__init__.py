@@ -20,6 +20,7 @@ Every box is given as two arrays, `lower` and `upper`, whose floats enclose the 
 """
 
 from ._krawl import Error, __version__
+from ._problem import system
 from ._results import Complete, Edited, Figure, Motion, Run, Solution, Verdict
 from ._verbs import Session, complete, drag, edit, motion, solve, verify
 
@@ -39,5 +40,6 @@ __all__ = [
     "edit",
     "motion",
     "solve",
+    "system",
     "verify",
 ]

@@ -27,6 +27,39 @@ def text_and_name(problem: Any) -> tuple[str, str]:
     raise Error(f"a problem is the path of a file or a dictionary with its keys, and not a {kind}")
 
 
+def system(
+    equations: Any,
+    unknowns: Mapping[str, Any],
+    parameters: Mapping[str, Any] | None = None,
+    *,
+    name: str = "system",
+) -> dict:
+    """A problem of unknown numbers and equations of one's own, which every verb takes (docs/equations.md).
+
+    `equations`: texts such as ``"x**2 + y**2 = a"``, or what SymPy has: expressions that are to be zero, and ``Eq``.
+    `unknowns`: for each its value in the sketch, where a path begins.
+    `parameters`: for each its value, or ``{"value": 4, "from": 2.5}`` for one that the path leads from elsewhere.
+
+    >>> import krawl
+    >>> circle = krawl.system(["x**2 + y**2 - a", "x*y = 1"], {"x": 1.2, "y": 0.5}, {"a": 4})
+    >>> len(krawl.complete(circle).solutions)
+    4
+    """
+
+    def text(equation: Any) -> str:
+        sides = [getattr(equation, side, None) for side in ("lhs", "rhs")]
+        return str(equation) if None in sides else f"{sides[0]} = {sides[1]}"
+
+    problem = {
+        "name": name,
+        "equations": [text(equation) for equation in equations],
+        "unknowns": {str(unknown): value for unknown, value in unknowns.items()},
+    }
+    if parameters:
+        problem["parameters"] = {str(key): value for key, value in parameters.items()}
+    return problem
+
+
 def _table(table: Mapping, path: list[str]):
     """The lines of a table: its values first, then the tables in it."""
     for key, value in table.items():

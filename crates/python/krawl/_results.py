@@ -42,6 +42,13 @@ class Solution(Figure):
         return self.data["class"]
 
     @property
+    def unknowns(self) -> dict:
+        """The values of unknown numbers by name: the middles of their boxes (docs/equations.md)."""
+        objects = self.data.get("objects") or {}
+        middle = lambda value: value[0] + 0.5 * (value[1] - value[0])  # noqa: E731
+        return {name: middle(at["value"]) for name, at in objects.items() if "value" in at}
+
+    @property
     def folds(self) -> Optional[int]:
         """How often the path is proved to turn back before this solution; 0 is exact."""
         return self.data.get("folds")
@@ -122,6 +129,11 @@ class Edited:
     #: The figure there.
     figure: Figure
     data: dict = field(repr=False)
+
+    @property
+    def unknowns(self) -> dict:
+        """The values of unknown numbers by name, where the edit was reached (docs/equations.md)."""
+        return self.data.get("unknowns", {})
 
     @property
     def reason(self) -> Optional[str]:

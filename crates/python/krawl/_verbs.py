@@ -139,8 +139,9 @@ class Session:
     @property
     def figure(self) -> Figure:
         """The figure as it is now, where the sketch is drawn."""
-        names, lower, upper = zip(*self._session.points())
-        return Figure(names, np.array(lower), np.array(upper))
+        points = self._session.points()
+        lower, upper = (np.array([point[k] for point in points]) for k in (1, 2))
+        return Figure(tuple(point[0] for point in points), lower, upper)
 
 
 def _edited(data: dict) -> Edited:

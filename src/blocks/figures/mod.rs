@@ -380,7 +380,7 @@ impl Figures {
         values
     }
 
-    /// The boxes of all points of a figure, in the problem's own coordinates, and the radii of circles by object.
+    /// The boxes of all points of a figure, in the problem's own coordinates, and the radii of circles and values of unknown numbers by object.
     ///
     /// # Panics
     /// If there are not so many figures.
@@ -397,7 +397,7 @@ impl Figures {
                 false => point(0.0),
             })
         });
-        let radii = self.cut.radii.iter().map(|u| u.map(at));
-        (points.collect(), radii.collect())
+        let numbers = self.cut.numbers.iter().map(|u| u.map(at));
+        (points.collect(), numbers.collect())
     }
 }

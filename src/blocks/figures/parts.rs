@@ -156,7 +156,7 @@ pub(super) fn may_be_reversed(
         .coordinates
         .iter()
         .copied()
-        .chain(cut.radii.iter().flatten().copied())
+        .chain(cut.numbers.iter().flatten().copied())
         .chain(cut.own.iter().flat_map(|[stay, _]| stay.iter().copied()))
         .collect();
     let pairs = figures

@@ -153,7 +153,7 @@ impl Quantity {
                 .into_iter()
                 .flat_map(|object| match cut.problem.objects[object].shape {
                     Shape::Arc { center, start, .. } => of_arrow(Arrow::Between(center, start)),
-                    _ => cut.radii[object].into_iter().collect(),
+                    _ => cut.numbers[object].into_iter().collect(),
                 })
                 .collect(),
             Quantity::Volume(points) => points.into_iter().flat_map(of_point).collect(),
@@ -172,7 +172,7 @@ fn turn(u: Arrow, v: Arrow, [i, j]: [usize; 2], cut: &Cut, of: Values) -> Number
 }
 
 fn squared_radius(cut: &Cut, object: usize, of: Values) -> Number {
-    match (&cut.problem.objects[object].shape, cut.radii[object]) {
+    match (&cut.problem.objects[object].shape, cut.numbers[object]) {
         (Shape::Arc { center, start, .. }, _) => {
             let across = Arrow::Between(*center, *start);
             across.dot(across, cut, of)

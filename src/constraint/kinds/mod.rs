@@ -7,6 +7,7 @@ mod collinear;
 mod coplanar;
 mod distance;
 mod equal;
+mod equation;
 mod fixed;
 mod length;
 mod level;
@@ -20,8 +21,10 @@ mod same_distance;
 mod symmetric;
 mod tangent;
 mod turn;
+mod value;
 
 pub use angle::is_opposite_nearer;
+pub use equation::EQUATIONS;
 
 use super::kind::Kind;
 
@@ -56,6 +59,8 @@ pub const KINDS: &[&dyn Kind] = &[
     &same_distance::EqualDistances,
     &same_angle::EqualAngles,
     &symmetric::Symmetric,
+    &value::Values,
+    &equation::Equations,
 ];
 
 /// What all of them use.

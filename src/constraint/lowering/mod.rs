@@ -3,11 +3,13 @@
 
 mod geometry;
 mod heading;
+mod number;
 mod relations;
 mod symmetry;
 mod turn;
 
 pub use geometry::{Arrow, Place};
+pub use number::{Number, Sum};
 pub use relations::Measured;
 pub use turn::MOST_TURN;
 
@@ -63,6 +65,8 @@ pub struct Lowering<'a> {
     headings: HashMap<[Form; 3], Arrow>,
     /// Cross products likewise.
     crosses: HashMap<[[Form; 3]; 2], Arrow>,
+    /// Numbers that equations of one's own are made of, see `number`.
+    numbers: HashMap<number::Made, Number>,
     /// Unknowns of objects, by index of the object.
     pub(super) objects: HashMap<usize, Vec<Entry>>,
 }
@@ -137,6 +141,7 @@ impl<'a> Lowering<'a> {
             has_headings: false,
             headings: HashMap::new(),
             crosses: HashMap::new(),
+            numbers: HashMap::new(),
             objects: HashMap::new(),
         }
     }
@@ -319,6 +324,13 @@ impl<'a> Lowering<'a> {
     pub fn vanish(&mut self, name: &str, products: Vec<Product>, start: Real, power: i32) {
         let right = self.way_to_zero(start);
         self.push(name.to_owned(), products, right, power, true);
+    }
+
+    /// The equation Σ products = `target` of pure numbers, likewise.
+    pub fn meet(&mut self, name: &str, products: Vec<Product>, start: &Real, target: Real) {
+        let mut right = self.way_to_zero(start - &target);
+        right[0] = &right[0] + &target;
+        self.push(name.to_owned(), products, right, 0, target.is_zero());
     }
 
     /// The way to zero of what is `start` in the sketch, see [`Lowering::vanish`].

@@ -49,7 +49,7 @@ impl Lowering<'_> {
 
     /// Unknowns of lines and planes of their own that must change their signs together, if the object is to be the
     /// same with them: the direction; the normal and the level; and by itself, as it must not change, the
-    /// base (with `Entry::Zero`).
+    /// base (with `Entry::Zero`). An unknown number does not change either.
     pub(super) fn same_sign(&self) -> Vec<[Entry; 2]> {
         let mut pairs = Vec::new();
         for (&object, entries) in &self.objects {
@@ -60,6 +60,8 @@ impl Lowering<'_> {
                     pairs.extend(along.iter().map(|&e| [e, along[0]]));
                 }
                 Shape::FreePlane { .. } => pairs.extend(entries.iter().map(|&e| [e, entries[0]])),
+                // x and −x are two numbers.
+                Shape::Number { .. } => pairs.extend(entries.iter().map(|&e| [e, Entry::Zero])),
                 _ => {}
             }
         }

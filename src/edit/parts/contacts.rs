@@ -69,6 +69,7 @@ pub(super) fn followed(problem: &Problem, cut: Cut, way: u64) -> (Cut, Vec<Kept>
             kind: "perpendicular".to_owned(),
             items: radius.into_iter().chain(contact.line).collect(),
             value: None,
+            formula: None,
         });
         let Ok(cut) = Cut::drawn(&more, way) else {
             continue;

@@ -100,7 +100,7 @@ pub(super) struct Parts {
     /// those of vectors that must not vanish.
     together: Vec<BTreeSet<usize>>,
     /// For each object its radius, if it is a circle.
-    radii: Vec<Option<usize>>,
+    numbers: Vec<Option<usize>>,
     /// Points of which the orientation is a sense that constraints leave open: followed always.
     senses: Vec<Vec<usize>>,
     /// Those, and points that distances join, which are followed where all of them are in one part.
@@ -201,7 +201,7 @@ impl Parts {
             is_exact,
             rights,
             powers,
-            radii,
+            numbers,
             record,
             unit,
             owners,
@@ -247,7 +247,7 @@ impl Parts {
             is_exact,
             together: Vec::new(),
             owners,
-            radii,
+            numbers,
             figure,
             singular,
             unit,
@@ -379,10 +379,17 @@ impl Parts {
             .collect()
     }
 
-    /// The radii of circles, by object, in floats; zero for what is none.
-    pub fn radii(&self) -> Vec<f64> {
-        let radius = |u: &Option<usize>| u.map_or(0.0, |u| self.figure[u].centre * self.unit);
-        self.radii.iter().map(radius).collect()
+    /// The radii of circles and the values of unknown numbers, by object.
+    pub fn numbers(&self) -> Vec<Option<Interval>> {
+        self.numbers_of(&self.figure)
+    }
+
+    fn numbers_of(&self, figure: &[Known]) -> Vec<Option<Interval>> {
+        let number = |u: usize| {
+            let unit = self.unit.powi(self.system.unknowns[u].power);
+            figure[u].enclosure() * point(unit)
+        };
+        self.numbers.iter().map(|u| u.map(number)).collect()
     }
 
     /// The figure in floats, in the homotopy's unit.
@@ -579,21 +586,23 @@ impl Parts {
             }
         });
         let dimensions = dimensions.collect();
-        let (ending, points) = match run.end {
-            End::Reached(figure) => (Ending::Reached, self.points_of(&figure)),
+        let (ending, reached) = match run.end {
+            End::Reached(figure) => (Ending::Reached, Some(figure)),
             End::Limit(figure, velocity) => {
                 let limit = self.limit(&figure, &velocity, &run.orientations);
-                (Ending::Limit(limit), self.points_of(&figure))
+                (Ending::Limit(limit), Some(figure))
             }
-            End::Passes(reason) => (Ending::Passes(reason), self.points()),
-            End::Stopped(reason) => (Ending::Stopped(reason), self.points()),
+            End::Passes(reason) => (Ending::Passes(reason), None),
+            End::Stopped(reason) => (Ending::Stopped(reason), None),
         };
+        let figure = reached.as_ref().unwrap_or(&self.figure);
         let contacts = self.contacts.iter().map(contacts::Kept::in_words);
         Edited {
             ending,
             t: run.t,
             dimensions,
-            points,
+            points: self.points_of(figure),
+            numbers: self.numbers_of(figure),
             orientations: Orientations::new(run.orientations),
             tubes: run.tubes,
             rejected: run.rejected,

@@ -89,7 +89,7 @@ impl Parts {
         let d = problem.dimension;
         for &u in &self.free {
             let place = self.system.coordinates.iter().position(|&c| c == u);
-            let round = self.radii.iter().position(|&r| r == Some(u));
+            let round = self.numbers.iter().position(|&r| r == Some(u));
             let (kind, item, value) = match (place, round) {
                 (Some(place), _) => {
                     let (p, axis) = (place / d, place % d);
@@ -98,7 +98,8 @@ impl Parts {
                 }
                 (None, Some(o)) => match &problem.objects[o].shape {
                     Shape::Round { radius, .. } => ("radii", Item::Object(o), radius.clone()),
-                    _ => unreachable!("only circles have radii of their own"),
+                    Shape::Number { sketch } => ("values", Item::Object(o), sketch.clone()),
+                    _ => unreachable!("only circles and numbers have a number of their own"),
                 },
                 _ => return Err(format!("{} is free", self.system.unknowns[u].name)),
             };
@@ -106,6 +107,7 @@ impl Parts {
                 kind: kind.to_owned(),
                 items: vec![item],
                 value: Some(value),
+                formula: None,
             };
             constraints.push((held, None));
         }

@@ -1,11 +1,10 @@
 //! The solutions in the end, with their classes of congruence.
 
 use super::Ledger;
-use crate::interval::Interval;
 use crate::interval::rounding::round_up;
 use crate::system::Homotopy;
 use crate::track::certified::solution::{Same, SolutionBox};
-use crate::track::{Solution, Stop, StopKind};
+use crate::track::{Solution, Stop, StopKind, relative_width};
 
 impl Ledger {
     /// The solutions with their classes; the reason, if a claim about them could not be proved.
@@ -51,9 +50,10 @@ impl Ledger {
             .zip(classes.into_iter().zip(mirrors))
             .map(|((found, &place), (class, mirror_of))| {
                 let points = found.points(homotopy);
-                let width = relative_width(&points);
+                let objects = found.objects(homotopy, &points);
+                let width = relative_width(&points, &objects);
                 Solution {
-                    objects: found.objects(homotopy, &points),
+                    objects,
                     auxiliary: found.auxiliary(homotopy),
                     points,
                     class,
@@ -152,11 +152,4 @@ pub fn is_congruent(homotopy: &Homotopy, one: &SolutionBox, other: &SolutionBox)
         }
     }
     Congruence::No
-}
-
-/// The widest coordinate's width over the largest coordinate.
-fn relative_width(points: &[[Interval; 3]]) -> f64 {
-    let all = || points.iter().flatten();
-    let size = all().fold(0.0, |max: f64, x| max.max(x.mag()));
-    all().fold(0.0, |max: f64, x| max.max(x.wid())) / size
 }

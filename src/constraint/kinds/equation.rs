@@ -1,0 +1,75 @@
+//! `equations`: polynomials of one's own that are to be zero, with roots and quotients.
+
+use super::super::lowering::{Number, Sum};
+use super::prelude::*;
+use crate::statement::{Atom, Terms};
+
+/// See the module.
+pub struct Equations;
+
+/// The key of the kind.
+pub const EQUATIONS: &str = "equations";
+
+impl Kind for Equations {
+    fn key(&self) -> &'static str {
+        EQUATIONS
+    }
+
+    fn meaning(&self) -> &'static str {
+        "an equation of unknowns, coordinates and distances"
+    }
+
+    fn takes(&self) -> &'static str {
+        "an equation in quotes, \"x^2 + y^2 = 2\""
+    }
+
+    fn fixes(&self, problem: &Problem, items: &[Item]) -> Fixes {
+        let mut equations = problem.constraints.iter().filter(|c| c.items == items);
+        let is_placed = equations.any(|c| c.formula.as_ref().is_some_and(|f| f.is_placed()));
+        Fixes {
+            frame: is_placed,
+            axes: [is_placed; 3],
+        }
+    }
+
+    fn lower(&self, of: Given, low: &mut Lowering) -> Result<(), Fault> {
+        let formula = low.problem.constraints[low.constraint()].formula.as_ref();
+        let formula = formula.ok_or("it is no equation")?;
+        let mut atoms: Vec<Number> = Vec::with_capacity(formula.atoms.len());
+        for atom in &formula.atoms {
+            let number = match atom {
+                &Atom::Number(object) => low.unknown_number(object),
+                &Atom::Coordinate { point, axis } => low.coordinate_number(point, axis),
+                &Atom::Length(ends) => low.length_number(ends)?,
+                Atom::Root(terms) => {
+                    let (sum, constant) = sum_of(terms, &atoms);
+                    low.root_number(sum, constant, of.name)?
+                }
+                Atom::Inverse(terms) => {
+                    let (sum, constant) = sum_of(terms, &atoms);
+                    low.inverse_number(sum, constant, of.name)?
+                }
+            };
+            atoms.push(number);
+        }
+        let (sum, constant) = sum_of(&formula.zero, &atoms);
+        low.sum(of.name, sum, &-&Real::from(constant));
+        Ok(())
+    }
+}
+
+/// The terms with what the atoms are, and the number that stands by itself.
+fn sum_of(terms: &Terms, atoms: &[Number]) -> (Sum, BigRational) {
+    let mut constant = BigRational::zero();
+    let mut sum = Sum::new();
+    for (term, coefficient) in terms {
+        match term.is_empty() {
+            true => constant = coefficient.clone(),
+            false => {
+                let factors = term.iter().map(|&atom| atoms[atom].clone());
+                sum.push((coefficient.clone(), factors.collect()));
+            }
+        }
+    }
+    (sum, constant)
+}

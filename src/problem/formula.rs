@@ -1,0 +1,333 @@
+//! Equations of one's own, read: `x^2 + y^2 = a`, over unknowns, coordinates `A.x` and lengths `|A-B|`.
+
+use super::expression::{Algebra, Reader};
+use super::{Decimal, Item};
+use crate::statement::{AXES, Atom, Formula, Terms, nearest};
+use num_rational::BigRational;
+use num_traits::{One, Zero};
+use std::collections::HashMap;
+
+/// Most terms of an equation that is multiplied out.
+const MOST_TERMS: usize = 2000;
+/// The highest degree.
+const MOST_DEGREE: usize = 24;
+/// No coefficient has more bits than this, above or below.
+const MOST_BITS: u64 = 4000;
+
+/// The equation that a text says: two expressions with `=` between them, or one that is to be zero.
+///
+/// # Errors
+/// What is wrong with it, in words, and where.
+pub(super) fn read(
+    text: &str,
+    dimension: usize,
+    items: &HashMap<&str, Item>,
+) -> Result<Formula, String> {
+    let atoms = Vec::new();
+    let algebra = Polynomials {
+        dimension,
+        items,
+        atoms,
+    };
+    let mut reader = Reader::new(text, algebra);
+    let mut zero = reader.sum()?;
+    if reader.take('=') {
+        reader.take('=');
+        let right = reader.sum()?;
+        let right = reader.algebra().negative(right);
+        let whole = reader.algebra().sum(zero, right);
+        zero = whole.map_err(|why| format!("`{text}`{why}"))?;
+    }
+    if reader.peek().is_some() {
+        return Err(reader.wrong("an operator or `=` was expected"));
+    }
+    let atoms = std::mem::take(&mut reader.algebra().atoms);
+    if zero.keys().all(Vec::is_empty) {
+        let why = match zero.is_empty() {
+            true => "it holds whatever the unknowns are: remove it",
+            false => "there is no unknown in it, and it does not hold",
+        };
+        return Err(format!("`{text}`: {why}"));
+    }
+    let text = text.trim().to_owned();
+    Ok(Formula { text, atoms, zero })
+}
+
+/// Polynomials in what names stand for.
+struct Polynomials<'a> {
+    dimension: usize,
+    items: &'a HashMap<&'a str, Item>,
+    atoms: Vec<Atom>,
+}
+
+impl Polynomials<'_> {
+    fn atom(&mut self, atom: Atom) -> Terms {
+        let found = self.atoms.iter().position(|other| *other == atom);
+        let index = found.unwrap_or_else(|| {
+            self.atoms.push(atom);
+            self.atoms.len() - 1
+        });
+        Terms::from([(vec![index], BigRational::one())])
+    }
+
+    fn point(&self, name: &str) -> Result<usize, String> {
+        match self.items.get(name) {
+            Some(&Item::Point(point)) => Ok(point),
+            _ => Err(self.unknown(name, "point", |item| matches!(item, Item::Point(_)))),
+        }
+    }
+
+    fn unknown(&self, name: &str, what: &str, is_meant: impl Fn(&Item) -> bool) -> String {
+        let names = self.items.iter().filter(|(_, item)| is_meant(item));
+        // In an order that does not change from run to run.
+        let mut names: Vec<&str> = names.map(|(name, _)| *name).collect();
+        names.sort_unstable();
+        let meant = nearest(name, names.into_iter());
+        let meant = meant.map_or(String::new(), |near| format!("; did you mean `{near}`?"));
+        format!(": there is no {what} `{name}`{meant}")
+    }
+
+    fn checked(terms: Terms) -> Result<Terms, String> {
+        if terms.len() > MOST_TERMS {
+            return Err(format!(
+                " has more than {MOST_TERMS} terms where it is multiplied out"
+            ));
+        }
+        if terms.keys().any(|term| term.len() > MOST_DEGREE) {
+            return Err(format!(" has a degree above {MOST_DEGREE}"));
+        }
+        let large = |c: &BigRational| c.numer().bits().max(c.denom().bits()) > MOST_BITS;
+        match terms.values().any(large) {
+            true => Err(" has a number that is too large on the way".to_owned()),
+            false => Ok(terms),
+        }
+    }
+
+    /// The number that it is, if no unknown is in it.
+    fn constant(terms: &Terms) -> Option<BigRational> {
+        let is_constant = terms.keys().all(Vec::is_empty);
+        is_constant.then(|| {
+            terms
+                .values()
+                .next()
+                .cloned()
+                .unwrap_or_else(BigRational::zero)
+        })
+    }
+}
+
+impl Algebra for Polynomials<'_> {
+    type Value = Terms;
+
+    fn number(&self, number: Decimal) -> Result<Terms, String> {
+        let number = number.value().clone();
+        let terms = (!number.is_zero()).then(|| (Vec::new(), number));
+        Ok(terms.into_iter().collect())
+    }
+
+    fn name(&mut self, name: &str, rest: &str) -> Result<(Terms, usize), String> {
+        let mut behind = rest.chars();
+        let coordinate = (behind.next() == Some('.'))
+            .then(|| behind.next())
+            .flatten();
+        let ends = !behind
+            .next()
+            .is_some_and(|c| c.is_alphanumeric() || c == '_');
+        if let Some(axis) = coordinate.filter(|_| ends) {
+            let point = self.point(name)?;
+            let axis = AXES
+                .iter()
+                .position(|axis_name| axis_name.starts_with(axis));
+            let axis = axis.filter(|&axis| axis < self.dimension);
+            let axis = axis.ok_or_else(|| {
+                let all = &["x", "y", "z"][..self.dimension];
+                format!(
+                    ": a point has the coordinates {}, and not `{}`",
+                    all.join(", "),
+                    &rest[1..2]
+                )
+            })?;
+            return Ok((self.atom(Atom::Coordinate { point, axis }), 2));
+        }
+        match self.items.get(name) {
+            Some(&Item::Object(object)) => Ok((self.atom(Atom::Number(object)), 0)),
+            Some(Item::Point(_)) => Err(format!(
+                ": `{name}` is a point: its coordinates are {name}.x and {name}.y, and |{name}-B| is its distance from B"
+            )),
+            _ => Err(self.unknown(name, "unknown or parameter", |item| {
+                matches!(item, Item::Object(_))
+            })),
+        }
+    }
+
+    fn bars(&mut self, inner: &str) -> Result<Terms, String> {
+        // Names of points may have a hyphen in them.
+        let splits = inner
+            .match_indices('-')
+            .map(|(at, _)| (&inner[..at], &inner[at + 1..]));
+        let mut pairs = splits.map(|(a, b)| [a, b].map(str::trim));
+        let known = pairs
+            .clone()
+            .find(|pair| pair.iter().all(|name| self.point(name).is_ok()));
+        let Some([a, b]) = known.or_else(|| pairs.next()) else {
+            return Err(format!(
+                ": between two bars a length is meant, |A-B|, and not `{inner}`"
+            ));
+        };
+        let ends = [self.point(a)?, self.point(b)?];
+        match ends[0] == ends[1] {
+            true => Err(format!(": |{a}-{b}| is no distance of two points")),
+            false => Ok(self.atom(Atom::Length([ends[0].min(ends[1]), ends[0].max(ends[1])]))),
+        }
+    }
+
+    fn root(&mut self, of: Terms) -> Result<Terms, String> {
+        match Self::constant(&of) {
+            Some(number) if number < BigRational::zero() => {
+                Err(" has the root of a number less than zero".to_owned())
+            }
+            Some(number) if number.is_zero() => Ok(of),
+            _ => Ok(self.atom(Atom::Root(of))),
+        }
+    }
+
+    fn sum(&self, mut a: Terms, b: Terms) -> Result<Terms, String> {
+        for (term, coefficient) in b {
+            *a.entry(term).or_insert_with(BigRational::zero) += coefficient;
+        }
+        a.retain(|_, coefficient| !coefficient.is_zero());
+        Self::checked(a)
+    }
+
+    fn negative(&self, a: Terms) -> Terms {
+        a.into_iter()
+            .map(|(term, coefficient)| (term, -coefficient))
+            .collect()
+    }
+
+    fn product(&self, a: &Terms, b: &Terms) -> Result<Terms, String> {
+        if a.len() * b.len() > 100 * MOST_TERMS {
+            return Self::checked(a.clone()).and(Err(format!(
+                " has more than {MOST_TERMS} terms where it is multiplied out"
+            )));
+        }
+        let mut out = Terms::new();
+        for (s, x) in a {
+            for (t, y) in b {
+                let mut term = [&s[..], &t[..]].concat();
+                term.sort_unstable();
+                *out.entry(term).or_insert_with(BigRational::zero) += x * y;
+            }
+        }
+        out.retain(|_, coefficient| !coefficient.is_zero());
+        Self::checked(out)
+    }
+
+    fn quotient(&mut self, a: Terms, b: Terms) -> Result<Terms, String> {
+        match Self::constant(&b) {
+            Some(number) if number.is_zero() => Err(" divides by zero".to_owned()),
+            Some(number) => {
+                Self::checked(a.into_iter().map(|(term, c)| (term, c / &number)).collect())
+            }
+            None => {
+                let inverse = self.atom(Atom::Inverse(b));
+                self.product(&a, &inverse)
+            }
+        }
+    }
+
+    fn whole(&self, a: &Terms) -> Option<u32> {
+        let number = Self::constant(a)?;
+        let whole = number.is_integer().then(|| number.to_integer());
+        whole.and_then(|whole| u32::try_from(whole).ok())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn items() -> HashMap<&'static str, Item> {
+        HashMap::from([
+            ("A", Item::Point(0)),
+            ("B", Item::Point(1)),
+            ("p-q", Item::Point(2)),
+            ("x", Item::Object(0)),
+            ("y", Item::Object(1)),
+        ])
+    }
+
+    /// The polynomial where x and y have these values, and all else is 1.
+    fn value(formula: &Formula, x: f64, y: f64) -> f64 {
+        let at = |&atom: &usize| match formula.atoms[atom] {
+            Atom::Number(0) => x,
+            Atom::Number(1) => y,
+            _ => 1.0,
+        };
+        let terms = formula.zero.iter();
+        let number = |c: &BigRational| num_traits::ToPrimitive::to_f64(c).unwrap();
+        terms
+            .map(|(term, c)| number(c) * term.iter().map(at).product::<f64>())
+            .sum()
+    }
+
+    #[test]
+    fn equations_are_read() {
+        for (text, wanted) in [
+            ("x^2 + y^2 = 2", 11.0),
+            ("2*(x - 1)**2*y", 24.0),
+            ("x/4 == 0.25*y", -0.25),
+            ("x*(y - x) - 1e-1 = -0.1", 3.0),
+            ("A.x + |A-B| = |A - p-q| * x", -1.0),
+            ("x/(y - 1) = 2", 1.0),
+            ("sqrt(x) = y", -3.0),
+        ] {
+            let formula = read(text, 2, &items()).unwrap();
+            assert_eq!(
+                value(&formula, 3.0, 4.0) - if text.starts_with("x^2") { 12.0 } else { 0.0 },
+                wanted,
+                "{text}"
+            );
+        }
+        let formula = read("|B-A|*A.y = x", 2, &items()).unwrap();
+        let wanted = [Item::Point(0), Item::Point(1), Item::Object(0)];
+        assert_eq!(formula.items(), wanted);
+        assert!(formula.is_placed());
+    }
+
+    #[test]
+    fn what_is_wrong_is_said() {
+        for (text, words) in [
+            ("x + z = 1", "no unknown or parameter `z`"),
+            ("A + x = 1", "A.x and A.y"),
+            ("A.z = 1", "the coordinates x, y"),
+            ("C.x = 1", "no point `C`"),
+            ("|A-C| = 1", "no point `C`"),
+            ("|A| = 1", "|A-B|"),
+            ("|A-A| = 1", "no distance"),
+            ("x - x = 0", "whatever the unknowns are"),
+            ("1 = 2", "does not hold"),
+            ("x/(y - y)", "divides by zero"),
+            ("x = y = 1", "an operator or `=`"),
+            ("(x + y + 1)^20*(x + y - 1)^20", "degree above"),
+            (
+                "(x+y+A.x+A.y+B.x+B.y)^12",
+                "terms where it is multiplied out",
+            ),
+            ("sqrt(-2) = x", "less than zero"),
+            ("x = ", "ends where"),
+        ] {
+            let error = read(text, 2, &items()).unwrap_err();
+            assert!(error.contains(words), "{text}: {error}");
+        }
+    }
+
+    proptest! {
+        /// No text makes it panic.
+        #[test]
+        fn no_text_panics(text in "[-+*/^().|=0-9xyABsqrt é]{0,30}") {
+            let _ = read(&text, 2, &items());
+        }
+    }
+}

@@ -1,0 +1,280 @@
+//! Equations of one's own: sets of all solutions beside each other and beside Newton's method from many starts, paths and edits,
+//! certificates of them.
+
+use assert_cmd::Command;
+use krawl::complete::{Options, Status, all};
+use krawl::edit::{Ending, Session, Setting};
+use krawl::problem::Problem;
+use krawl::system::Located;
+use krawl::track::prove;
+use proptest::prelude::*;
+
+fn read(text: &str) -> Problem {
+    Problem::parse(text, "equations.toml").unwrap_or_else(|error| panic!("{text}: {error}"))
+}
+
+/// The numbers of each solution, in the order of the file, and whether there are no others, proved.
+fn real(problem: &Problem) -> (Vec<Vec<f64>>, bool) {
+    let found = all(problem, &Options::default()).unwrap();
+    let numbers = |objects: &[Located]| -> Vec<f64> {
+        let number = |object: &Located| match object {
+            Located::Number(number) => {
+                assert!(number.wid() < 1e-9 * number.mag().max(1.0));
+                Some(number.mid())
+            }
+            _ => None,
+        };
+        objects.iter().filter_map(number).collect()
+    };
+    let solutions = found.solutions.iter().map(|s| numbers(&s.objects));
+    (solutions.collect(), found.status == Status::Complete)
+}
+
+fn near(a: &[f64], b: &[f64]) -> bool {
+    a.len() == b.len()
+        && a.iter()
+            .zip(b)
+            .all(|(x, y)| (x - y).abs() < 1e-9 * x.abs().max(1.0))
+}
+
+/// Each wanted one is there, and no other.
+fn are(found: &[Vec<f64>], wanted: &[Vec<f64>]) {
+    assert_eq!(found.len(), wanted.len(), "{found:?}");
+    for one in wanted {
+        assert!(
+            found.iter().any(|other| near(one, other)),
+            "{one:?}: {found:?}"
+        );
+    }
+}
+
+#[test]
+fn a_circle_and_a_hyperbola_meet_in_four_places() {
+    let text = std::fs::read_to_string("docs/examples/circle-hyperbola.toml").unwrap();
+    let (found, is_complete) = real(&read(&text));
+    assert!(is_complete);
+    // (x + y)² = 6 and (x − y)² = 2; x and −x are two numbers.
+    let (sum, difference) = (6f64.sqrt(), 2f64.sqrt());
+    let places = [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]].map(|[s, d]| {
+        vec![
+            (s * sum + d * difference) / 2.0,
+            (s * sum - d * difference) / 2.0,
+            4.0,
+        ]
+    });
+    are(&found, &places);
+}
+
+#[test]
+fn higher_degrees_decimals_roots_and_quotients() {
+    // Each with its solutions, by formulas.
+    let cubic: Vec<Vec<f64>> = (0..3)
+        .map(|k| {
+            let angle = (0.25f64.acos() + f64::from(k) * std::f64::consts::TAU) / 3.0;
+            vec![2.0 * angle.cos()]
+        })
+        .collect();
+    are(
+        &real(&read(
+            "equations = [\"x^3 - 3*x = 1/2\"]\n[unknowns]\nx = 1.9\n",
+        ))
+        .0,
+        &cubic,
+    );
+    let root = vec![vec![0.1f64.powf(0.25)], vec![-(0.1f64.powf(0.25))]];
+    let (found, is_complete) = real(&read(
+        "equations = [\"123.456*x^4 = 12.3456\"]\n[unknowns]\nx = 1\n",
+    ));
+    are(&found, &root);
+    assert!(is_complete);
+    // √x is not negative: x = 3 − 2√x has one solution, and x = 9 is none.
+    let (found, is_complete) = real(&read(
+        "equations = [\"x = 3 - 2*sqrt(x)\"]\n[unknowns]\nx = 2\n",
+    ));
+    are(&found, &[vec![1.0]]);
+    assert!(is_complete);
+    // x + 1/x = 5/2.
+    let (found, is_complete) = real(&read(
+        "equations = [\"x + 1/x == 5/2\"]\n[unknowns]\nx = 1.5\n",
+    ));
+    are(&found, &[vec![2.0], vec![0.5]]);
+    assert!(is_complete);
+}
+
+/// Sixteen of katsura-5's 32 complex solutions are real: counted by two searches that share no step, one of which is checked
+/// again by its certificate.
+#[test]
+fn katsura_5_is_told_by_two_searches() {
+    let problem = Problem::read("docs/examples/katsura-5.toml").unwrap();
+    let (found, is_complete) = real(&problem);
+    assert!(is_complete);
+    let lowered = krawl::complex::lower(&problem).unwrap();
+    assert_eq!(lowered.bound.as_ref().unwrap().count, 32);
+    let filling = krawl::complex::Filling {
+        enough: lowered.enough(),
+        patience: 100,
+        ..Default::default()
+    };
+    let fibre = krawl::complex::fill(&lowered.system, &filling).unwrap();
+    assert_eq!(fibre.solutions.len(), 32);
+    let template = krawl::complex::Template::new("katsura-5", fibre);
+    let solutions = krawl::complex::solve(&lowered, &template, &Default::default());
+    assert_eq!(solutions.status, krawl::complex::Status::Complete);
+    let is_real = |nature: &&krawl::complex::Nature| **nature == krawl::complex::Nature::Real;
+    assert_eq!(
+        solutions.natures.iter().filter(is_real).count(),
+        found.len()
+    );
+    assert_eq!(found.len(), 16);
+}
+
+/// The same points with another number are another solution, and no congruence makes one of them.
+#[test]
+fn figures_with_other_numbers_are_other_solutions() {
+    let problem = read(
+        "dimension = 2\nequations = [\"x^2 = 2\", \"|A-B|*x*y = 3\"]\n[points]\nA = [0, 0]\nB = [4, 0]\nC = [1, 2]\n\
+         [unknowns]\nx = 1.4\ny = 1\n\
+         [constraints]\ndistances = [[\"A\", \"B\", 4], [\"B\", \"C\", 3], [\"A\", \"C\", 3]]\n",
+    );
+    let (found, is_complete) = real(&problem);
+    assert!(is_complete);
+    let x = 2f64.sqrt();
+    are(&found, &[vec![x, 0.75 / x], vec![-x, -0.75 / x]]);
+}
+
+/// What is said of Apollonius' circle of the ratio k: (x − c)² + y² = r².
+#[test]
+fn points_and_distances_stand_in_equations() {
+    let problem = Problem::read("docs/examples/apollonius.toml").unwrap();
+    assert!(problem.is_absolute());
+    let outcome = prove(&problem).unwrap();
+    let places: Vec<f64> = outcome
+        .solutions
+        .iter()
+        .map(|s| s.points[2][0].mid())
+        .collect();
+    let half = (64.0f64 / 9.0 - 2.25).sqrt();
+    assert_eq!(places.len(), 2);
+    for wanted in [16.0 / 3.0 - half, 16.0 / 3.0 + half] {
+        assert!(
+            places.iter().any(|x| (x - wanted).abs() < 1e-12),
+            "{places:?}"
+        );
+    }
+}
+
+#[test]
+fn parameters_are_dimensions() {
+    let problem = Problem::read("docs/examples/circle-hyperbola.toml").unwrap();
+    let mut session = Session::open(&problem).unwrap();
+    let setting = Setting::parse(&problem, "a=6.25").unwrap();
+    let edited = session.edit(&[setting]);
+    assert_eq!(edited.ending, Ending::Reached);
+    let numbers: Vec<f64> = edited.numbers.iter().map(|x| x.unwrap().mid()).collect();
+    // (x + y)² = 8.25, (x − y)² = 4.25, x the greater as it was.
+    let (sum, difference) = (8.25f64.sqrt(), 4.25f64.sqrt());
+    let wanted = [(sum + difference) / 2.0, (sum - difference) / 2.0, 6.25];
+    assert!(near(&numbers, &wanted), "{numbers:?}");
+    // Where both meet the circle touches: a = 2.
+    let edited = session.edit(&[Setting::parse(&problem, "a=1").unwrap()]);
+    let Ending::Limit(_) = edited.ending else {
+        panic!("{:?}", edited.ending)
+    };
+    assert!(edited.dimensions[0].value.contains(2.0), "{edited:?}");
+}
+
+#[test]
+fn what_is_written_reads_back_equal() {
+    for file in ["katsura-5", "apollonius", "circle-hyperbola"] {
+        let problem = Problem::read(format!("docs/examples/{file}.toml")).unwrap();
+        let again = Problem::parse(&problem.to_toml(), "again.toml").unwrap();
+        assert_eq!(again.objects, problem.objects, "{file}");
+        assert_eq!(again.constraints, problem.constraints, "{file}");
+        assert_eq!(again.points, problem.points, "{file}");
+    }
+}
+
+#[test]
+fn certificates_of_equations_are_verified() {
+    let directory = tempfile::tempdir().unwrap();
+    let krawl = |arguments: &[&str]| {
+        let output = Command::new(env!("CARGO_BIN_EXE_krawl"))
+            .args(arguments)
+            .output()
+            .unwrap();
+        String::from_utf8([output.stdout, output.stderr].concat()).unwrap()
+    };
+    let cert = directory.path().join("set.krawl");
+    let cert = cert.to_str().unwrap();
+    for (file, count) in [("circle-hyperbola", 4), ("katsura-5", 16)] {
+        let file = format!("docs/examples/{file}.toml");
+        krawl(&["all", &file, "--cert", cert, "--quiet"]);
+        let verdict = krawl(&["verify", cert, &file]);
+        let words = format!(
+            "VERIFIED: {} has exactly {count} solutions",
+            Problem::read(&file).unwrap().name
+        );
+        assert!(verdict.contains(&words), "{verdict}");
+        assert!(verdict.contains("exactly."), "{verdict}");
+        krawl(&["solve", &file, "--cert", cert, "--quiet"]);
+        let verdict = krawl(&["verify", cert, &file]);
+        assert!(verdict.contains("VERIFIED"), "{verdict}");
+        // Of another system it proves nothing.
+        let other = directory.path().join("other.toml");
+        let text = std::fs::read_to_string(&file)
+            .unwrap()
+            .replacen("= 1\"", "= 1.001\"", 1);
+        std::fs::write(&other, text).unwrap();
+        let verdict = krawl(&["verify", cert, other.to_str().unwrap()]);
+        assert!(!verdict.contains("exactly."), "{verdict}");
+    }
+}
+
+/// A random system of two equations of degree two, with whole coefficients, of which an ellipse is one.
+fn system(of: [i32; 10]) -> String {
+    let [a, b, c, d, e, f, g, h, i, j] = of;
+    format!(
+        "equations = [\"{a}*x^2 + {b}*x*y + {c}*y^2 + {d}*x + {e}*y = 30\", \"{f}*x^2 + {g}*x*y + {h}*y^2 + {i}*x + {j}*y = 2\"]\n\
+         [unknowns]\nx = 1.7\ny = -0.6\n"
+    )
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+
+    /// Newton's method from many starts finds no solution that is not among those that are said to be all, and comes to each of them.
+    #[test]
+    fn all_of_them_are_found(
+        a in 2..5i32, b in -1..2i32, c in 2..5i32, rest in prop::array::uniform7(-4..5i32),
+    ) {
+        let [d, e, f, g, h, i, j] = rest;
+        let of = [a, b, c, d, e, f, g, h, i, j];
+        let Ok(problem) = Problem::parse(&system(of), "random.toml") else {
+            // The second equation has no x or y.
+            return Ok(());
+        };
+        let (found, is_complete) = real(&problem);
+        let [a, b, c, d, e, f, g, h, i, j] = of.map(f64::from);
+        let mut seen = vec![false; found.len()];
+        for start in 0..400 {
+            let (mut x, mut y) = (f64::from(start % 20) - 9.7, f64::from(start / 20) - 9.4);
+            for _ in 0..60 {
+                let p = a * x * x + b * x * y + c * y * y + d * x + e * y - 30.0;
+                let q = f * x * x + g * x * y + h * y * y + i * x + j * y - 2.0;
+                let (px, py) = (2.0 * a * x + b * y + d, b * x + 2.0 * c * y + e);
+                let (qx, qy) = (2.0 * f * x + g * y + i, g * x + 2.0 * h * y + j);
+                let det = px * qy - py * qx;
+                (x, y) = (x - (p * qy - q * py) / det, y - (q * px - p * qx) / det);
+            }
+            let p = a * x * x + b * x * y + c * y * y + d * x + e * y - 30.0;
+            let q = f * x * x + g * x * y + h * y * y + i * x + j * y - 2.0;
+            if !(p.abs() + q.abs() < 1e-11) {
+                continue;
+            }
+            let known = found.iter().position(|s| (s[0] - x).abs() + (s[1] - y).abs() < 1e-6);
+            prop_assert!(known.is_some() || !is_complete, "{of:?}: {x} {y} is not among {found:?}");
+            known.into_iter().for_each(|k| seen[k] = true);
+        }
+        prop_assert!(seen.iter().all(|seen| *seen), "{of:?}: {found:?}");
+    }
+}
