@@ -6,6 +6,7 @@ mod common;
 mod arrows;
 mod command_line;
 #[cfg(unix)]
+mod equations;
 mod help;
 mod json_schema;
 mod motion;
