@@ -59,7 +59,7 @@ pub use quadratic::{
 };
 pub(crate) use structure::check_structure;
 pub use structure::{size, size_in_edits};
-pub use supposed::supposed_lengths;
+pub use supposed::{equations_with_roots, supposed_lengths};
 
 use crate::interval::Interval;
 use crate::statement::Problem;

@@ -4,11 +4,12 @@ use super::certain_digits;
 use super::drawing::{Drawing, names};
 use super::json::Points;
 use super::objects::Objects;
+use super::supposed::supposed;
 use super::table::write_objects;
 use crate::blocks::{Account, LeftOut, rounded_down, rounded_up};
 use crate::certificate::cover::CoverVerdict;
 use crate::complete::{Among, Choice, Complete, Constructed, Method, Status, Tested, Why};
-use crate::constraint::{Symmetry, supposed_lengths, symmetry};
+use crate::constraint::{Symmetry, symmetry};
 use crate::interval::Interval;
 use crate::places::Each as _;
 use crate::problem::{Object, Problem, Shape, counted, list};
@@ -436,25 +437,6 @@ fn verdict(problem: &Problem, result: &Complete) -> String {
         );
     }
     words + &supposed(problem)
-}
-
-/// Which figures are none though the words of the constraints may hold in them; empty where there are none such.
-fn supposed(problem: &Problem) -> String {
-    let name = |[a, b]: [usize; 2]| {
-        let [a, b] = [a, b].each(|p| &problem.points[p].name);
-        format!("{a}-{b}")
-    };
-    let lengths: Vec<String> = supposed_lengths(problem).into_iter().map(name).collect();
-    match lengths.as_slice() {
-        [] => String::new(),
-        [one] => format!(
-            " The length {one} is supposed to be greater than 0: a figure in which it is 0 is not counted."
-        ),
-        _ => format!(
-            " The lengths {} are supposed to be greater than 0: a figure in which one of them is 0 is not counted.",
-            lengths.join(", ")
-        ),
-    }
 }
 
 /// The same but for what is said of sides and lengths.

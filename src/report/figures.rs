@@ -2,6 +2,7 @@
 
 use super::drawing::Drawing;
 use super::edit::{numbers_to_value, points_to_value, write_numbers, write_points};
+use super::supposed::supposed;
 use crate::blocks::{BlockAccount, Chosen, Comparison, Figures, First, Sense, Way};
 use crate::problem::Shape;
 use serde_json::{Value, json};
@@ -50,7 +51,7 @@ pub fn figures_in_words(figures: &Figures) -> String {
 fn claim_in_words(figures: &Figures) -> String {
     let doubt = figures.doubt();
     let number = match figures.count() {
-        Some(0) => return none_in_words(figures, doubt),
+        Some(0) => return none_in_words(figures, doubt) + &supposed(figures.problem()),
         Some(1) => "1 figure meets".to_owned(),
         Some(n) => format!("{n} figures meet"),
         None => "more than 2^64 figures meet".to_owned(),
@@ -76,6 +77,7 @@ fn claim_in_words(figures: &Figures) -> String {
     };
     out += &provided(figures);
     out.push('.');
+    out += &supposed(figures.problem());
     out += &senses_in_words(figures);
     let left_out = figures.account().left_out_in_words();
     if !left_out.is_empty() {

@@ -21,6 +21,7 @@ pub mod page;
 pub mod picture;
 #[cfg(feature = "cli")]
 mod progress;
+mod supposed;
 mod sweep;
 mod table;
 mod theorem;

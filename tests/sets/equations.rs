@@ -101,6 +101,24 @@ fn higher_degrees_decimals_roots_and_quotients() {
     assert!(is_complete);
 }
 
+/// √0 = 0 is a solution that the equations of a root do not have: it is said.
+#[test]
+fn what_is_under_a_root_is_supposed_to_be_positive() {
+    let directory = tempfile::tempdir().unwrap();
+    let file = directory.path().join("root.toml");
+    let text = "equations = [\"sqrt(x) = y\", \"y*(y - 1) = 0\"]\n[unknowns]\nx = 0.5\ny = 0.6\n";
+    std::fs::write(&file, text).unwrap();
+    for verb in ["all", "solve"] {
+        let output = Command::new(env!("CARGO_BIN_EXE_krawl"))
+            .args([verb, file.to_str().unwrap()])
+            .output()
+            .unwrap();
+        let said = String::from_utf8(output.stdout).unwrap();
+        let words = "What is under a root in `sqrt(x) = y` is supposed to be greater than 0";
+        assert!(said.contains(words), "{verb}: {said}");
+    }
+}
+
 /// Sixteen of katsura-5's 32 complex solutions are real: counted by two searches that share no step, one of which is checked
 /// again by its certificate.
 #[test]
