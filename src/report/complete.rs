@@ -11,7 +11,6 @@ use crate::certificate::cover::CoverVerdict;
 use crate::complete::{Among, Choice, Complete, Constructed, Method, Status, Tested, Why};
 use crate::constraint::{Symmetry, symmetry};
 use crate::interval::Interval;
-use crate::places::Each as _;
 use crate::problem::{Object, Problem, Shape, counted, list};
 use crate::track::Mode;
 use std::fmt::Write;
