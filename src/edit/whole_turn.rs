@@ -66,12 +66,22 @@ impl Asked {
     /// # Errors
     /// As [`Setting::named`].
     pub fn new(problem: &Problem, named: &[(&str, &str)]) -> Result<Self, SettingError> {
+        Self::of(problem, named, |_| false)
+    }
+
+    /// The same; `is_dimension`: whether what has the name of a parameter is a dimension all the same.
+    fn of(
+        problem: &Problem,
+        named: &[(&str, &str)],
+        is_dimension: impl Fn(&str) -> bool,
+    ) -> Result<Self, SettingError> {
         let mut indices: HashMap<&str, usize> = HashMap::new();
         let mut beyond = HashSet::new();
         let mut given = Vec::with_capacity(named.len());
         let mut set: Vec<(String, Decimal)> = Vec::new();
         for &(name, value) in named {
-            if problem.parameters.iter().any(|(other, _)| other == name) {
+            let is_parameter = problem.parameters.iter().any(|(other, _)| other == name);
+            if is_parameter && !is_dimension(name) {
                 let value = value.parse();
                 let value = value.map_err(|error| SettingError::Number {
                     name: name.to_owned(),
@@ -101,7 +111,9 @@ impl Asked {
             if is_beyond(&value) {
                 beyond.insert(index);
             }
-            if let Some(expression) = number(problem, index).and_then(Decimal::expression) {
+            if !is_parameter
+                && let Some(expression) = number(problem, index).and_then(Decimal::expression)
+            {
                 let name = problem.dimension_name(index);
                 return Err(SettingError::Computed(name, expression.to_owned()));
             }
@@ -146,7 +158,7 @@ impl Asked {
         let is_named = |name: &String| named.iter().any(|(other, _)| other == name);
         match parameters.find(|(name, _)| is_named(name) && !is_led_alone(problem, name)) {
             Some((name, _)) => Err(SettingError::Parameter(name.clone())),
-            None => Self::new(problem, named),
+            None => Self::of(problem, named, |name| is_led_alone(problem, name)),
         }
     }
 

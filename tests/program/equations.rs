@@ -58,10 +58,7 @@ fn what_is_wrong_is_said_with_its_place() {
             "equations = 3\n[unknowns]\nx = 1\n",
             "a list of equations in quotes",
         ),
-        (
-            "[unknowns]\nx = [1, 2]\n",
-            "a number, where the path begins",
-        ),
+        ("[unknowns]\nx = [1, 2]\n", "unknowns.x: must be a number"),
         ("[unknowns]\nx = 1\n", "constraints"),
     ] {
         fs::write(file, text).unwrap();
