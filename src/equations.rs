@@ -17,6 +17,19 @@ impl Ring for f64 {
     }
 }
 
+/// Numbers that can be halved.
+pub trait Halved: Ring {
+    /// So many halves of it.
+    fn halves(self, count: i32) -> Self;
+}
+
+impl Halved for f64 {
+    #[inline]
+    fn halves(self, count: i32) -> Self {
+        0.5 * f64::from(count) * self
+    }
+}
+
 /// A factor of a product.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Form<E> {
@@ -112,6 +125,30 @@ impl<E: Copy + PartialEq, F: Copy> Product<E, F> {
                 this.entries()
                     .map(move |(entry, sign)| (entry, sign, slope.clone()))
             })
+    }
+}
+
+/// ½ Σ factor · left · right, the left-hand side of an equation, where entries have these values.
+#[inline]
+pub fn left_side<E: Copy + PartialEq, T: Halved>(
+    products: &[Product<E>],
+    at: impl Fn(E) -> T,
+) -> T {
+    let terms = products.iter();
+    terms.fold(T::whole(0), |sum, p| sum + p.value(&at).halves(p.factor))
+}
+
+/// The derivatives of ½ Σ factor · left · right, told one by one: those of one entry are to be added.
+#[inline]
+pub fn slopes<E: Copy + PartialEq, T: Halved>(
+    products: &[Product<E>],
+    at: impl Fn(E) -> T,
+    mut tell: impl FnMut(E, T),
+) {
+    for p in products {
+        for (entry, sign, other) in p.derivatives(&at) {
+            tell(entry, other.halves(sign * p.factor));
+        }
     }
 }
 

@@ -27,11 +27,17 @@ pub use inari::Interval;
 pub use portable::Interval;
 pub use real::{Ball, Real, root};
 
-use crate::equations::Ring;
+use crate::equations::{Halved, Ring};
 
 impl Ring for Interval {
     fn whole(number: i32) -> Self {
         point(number.into())
+    }
+}
+
+impl Halved for Interval {
+    fn halves(self, count: i32) -> Self {
+        point(0.5 * f64::from(count)) * self
     }
 }
 

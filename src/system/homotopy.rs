@@ -2,7 +2,7 @@
 
 use super::{Beside, ExactLength, Gauge, GaugeError, Length, Right, Segment};
 use crate::constraint::{self, Entry, Equation, Role, Tail};
-use crate::equations::{Form, Product};
+use crate::equations::{Form, Product, left_side, slopes};
 use crate::interval::{Interval, ZERO, enclose, enclose_rational, point};
 use crate::places::{Each as _, array};
 use crate::problem::{Distance, Problem, Shape, Target};
@@ -418,23 +418,16 @@ impl Homotopy {
     /// An enclosure of q_e, the left-hand side of an equation, where unknowns have these values.
     pub fn left_side(&self, equation: usize, at: impl Fn(usize) -> Interval) -> Interval {
         let at = |entry: Option<usize>| entry.map_or(ZERO, &at);
-        let terms = self.terms(equation).into_iter();
-        terms.fold(ZERO, |sum, term| {
-            sum + point(0.5 * f64::from(term.factor)) * term.value(at)
-        })
+        left_side(&self.terms(equation), at)
     }
 
     /// Enclosures of its derivatives by all unknowns.
     pub fn slopes(&self, equation: usize, at: impl Fn(usize) -> Interval) -> Vec<Interval> {
         let at = |entry: Option<usize>| entry.map_or(ZERO, &at);
         let mut out = vec![ZERO; self.equations];
-        for term in self.terms(equation) {
-            for (entry, sign, slope) in term.derivatives(at) {
-                if let Some(i) = entry {
-                    out[i] += point(0.5 * f64::from(sign * term.factor)) * slope;
-                }
-            }
-        }
+        slopes(&self.terms(equation), at, |entry, slope| {
+            entry.into_iter().for_each(|i| out[i] += slope);
+        });
         out
     }
 
