@@ -27,11 +27,18 @@ pub use inari::Interval;
 pub use portable::Interval;
 pub use real::{Ball, Real, root};
 
+use crate::elimination::Field;
 use crate::equations::{Halved, Ring};
 
 impl Ring for Interval {
     fn whole(number: i32) -> Self {
         point(number.into())
+    }
+}
+
+impl Field for Interval {
+    fn size(&self) -> f64 {
+        self.mig()
     }
 }
 
