@@ -6,6 +6,7 @@
 //! constraint is not used by any step. All lengths are read off a figure; the two places where spheres and planes
 //! meet are the branches.
 
+use crate::interval::vector::{cross, dot, minus};
 use crate::order::InOrder;
 use crate::places::{Each as _, array};
 use crate::problem::{Item, Problem};
@@ -265,23 +266,8 @@ impl Walk<'_> {
 
 type V = [f64; 3];
 
-fn minus(a: V, b: V) -> V {
-    array(|k| a[k] - b[k])
-}
-
 fn along(a: V, s: f64, d: V) -> V {
     array(|k| a[k] + s * d[k])
-}
-
-fn dot(a: V, b: V) -> f64 {
-    (0..3).map(|k| a[k] * b[k]).sum()
-}
-
-fn cross(a: V, b: V) -> V {
-    array(|k| {
-        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-        a[i] * b[j] - a[j] * b[i]
-    })
 }
 
 /// The linear equations n·(p − c) = h that follow for a step's point, c being the centre of its first sphere.

@@ -1,4 +1,4 @@
-//! Vectors of three intervals.
+//! Vectors of three numbers: intervals, floats, complex numbers.
 
 use super::Interval;
 use crate::places::Each as _;

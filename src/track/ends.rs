@@ -1,6 +1,7 @@
 //! Where a path that does not come back to the sketch ends.
 
 use crate::constraint::Tail;
+use crate::interval::vector::cross;
 use crate::places::{Each as _, array};
 use crate::problem::{Item, Problem, Shape};
 use crate::system::Homotopy;
@@ -223,13 +224,6 @@ fn normal(figure: &[[f64; 3]], points: &[usize]) -> Option<[f64; 3]> {
         }
     }
     (best.1 > 0.0).then(|| best.0.each(|x| x / best.1))
-}
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    array(|k| {
-        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-        a[i] * b[j] - a[j] * b[i]
-    })
 }
 
 /// The point with the largest coordinate, and that. `z` are all unknowns.
