@@ -4,7 +4,7 @@
 use super::floats::Floats;
 use super::frame::Frame;
 use super::quadratic::{Entry, Form};
-pub use crate::interval::vector::{cross, dot};
+pub use crate::interval::vector::{cross, dot, length as size};
 use crate::interval::{Interval, point};
 use crate::places::{Each as _, array};
 use crate::problem::Problem;
@@ -47,10 +47,6 @@ impl Figure {
     pub fn normal(&self, a: &str, b: &str, c: &str) -> [f64; 3] {
         cross(self.arrow(a, b), self.arrow(a, c))
     }
-}
-
-pub fn size(a: [f64; 3]) -> f64 {
-    dot(a, a).sqrt()
 }
 
 /// The angle between two vectors in degrees.

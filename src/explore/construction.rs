@@ -337,19 +337,12 @@ fn side(dimension: usize, step: &Step, figure: &[V]) -> bool {
 mod tests {
     use super::*;
 
-    fn figure_of(problem: &Problem) -> Vec<V> {
-        let points = problem.points.iter();
-        points
-            .map(|p| p.sketch.each_ref().each(|x| x.to_f64()))
-            .collect()
-    }
-
     /// Every branch keeps all lengths and planes that the plan uses, and no two are the same.
     #[test]
     fn branches_keep_what_the_plan_uses() {
         for (name, added) in [("octahedron", 1), ("disulfide", 1), ("dodecagon", 2)] {
             let problem = Problem::read(format!("problems/{name}.toml")).unwrap();
-            let figure = figure_of(&problem);
+            let figure = problem.places();
             let plans = Construction::some(&problem, 8);
             assert_eq!(plans[0].added, added, "{name}");
             let mut seen = 0;

@@ -1,6 +1,6 @@
 //! Chains of points and bars, and problems made of them.
 
-pub(super) use crate::interval::vector::{cross, dot, minus};
+pub(super) use crate::interval::vector::{cross, distance, dot, minus};
 use crate::places::{Each as _, array};
 use crate::problem::Problem;
 use crate::random::Random;
@@ -92,9 +92,4 @@ pub(super) fn plus(a: V3, b: V3) -> V3 {
 
 pub(super) fn times(s: f64, a: V3) -> V3 {
     a.each(|x| s * x)
-}
-
-pub(super) fn distance(a: V3, b: V3) -> f64 {
-    let u = minus(a, b);
-    dot(u, u).sqrt()
 }

@@ -26,6 +26,16 @@ pub fn cross<T: Copy + Sub<Output = T> + Mul<Output = T>>(a: [T; 3], b: [T; 3]) 
     ]
 }
 
+/// |v|.
+pub fn length(v: [f64; 3]) -> f64 {
+    dot(v, v).sqrt()
+}
+
+/// |a − b|.
+pub fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
+    length(minus(a, b))
+}
+
 /// v / |v|; `None` where v may be zero.
 pub fn unit(v: Vector) -> Option<Vector> {
     let length = (v[0].sqr() + v[1].sqr() + v[2].sqr()).sqrt();

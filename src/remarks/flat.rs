@@ -2,7 +2,7 @@
 
 use super::{Remark, joined, tetrahedra, triangles};
 use crate::interval::vector;
-use crate::places::{Each as _, array};
+use crate::places::Each as _;
 use crate::problem::{Object, Problem, Shape};
 use crate::system::Homotopy;
 use num_rational::BigRational;
@@ -125,14 +125,10 @@ pub(super) fn parts(problem: &Problem) -> Vec<Remark> {
 /// one line in space.
 fn flat_with(problem: &Problem, [middle, a, b]: [usize; 3]) -> Option<Vec<usize>> {
     let d = problem.dimension;
-    let places: Vec<[f64; 3]> = problem
-        .points
-        .iter()
-        .map(|p| p.sketch.each_ref().each(|x| x.to_f64()))
-        .collect();
-    let nearly = |p: usize| -> [f64; 3] { array(|k| places[p][k] - places[middle][k]) };
+    let places = problem.places();
+    let nearly = |p: usize| vector::minus(places[p], places[middle]);
     let (u, v) = (nearly(a), nearly(b));
-    let size = |v: [f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let size = vector::length;
     let exact = [from(problem, middle, a), from(problem, middle, b)];
     let normal = match d {
         2 => None,

@@ -1,7 +1,6 @@
 //! What follows from an arc of path that sets out from a figure at t = 0 with t rising.
 
 use crate::interval::{Interval, hull, point};
-use crate::places::array;
 use crate::system::Homotopy;
 use crate::track::Stop;
 
@@ -31,19 +30,12 @@ impl Figure {
 
     /// All points of the figure in the gauge, in the homotopy's unit.
     pub fn points(&self, homotopy: &Homotopy) -> Vec<[Interval; 3]> {
-        let (d, m) = (homotopy.dimension, homotopy.equations);
-        let coordinate = |p: usize, axis: usize| -> Interval {
-            match homotopy.gauge.variable.get(p * d + axis) {
-                Some(&i) if axis < d && i < m => {
-                    let around = hull(-self.radius[i], self.radius[i]);
-                    point(self.centre[i]) + point(self.low[i]) + around
-                }
-                _ => point(0.0),
-            }
+        let coordinate = |i: usize| {
+            let around = hull(-self.radius[i], self.radius[i]);
+            point(self.centre[i]) + point(self.low[i]) + around
         };
-        (0..homotopy.points)
-            .map(|p| array(|axis| coordinate(p, axis)))
-            .collect()
+        let points = 0..homotopy.points;
+        points.map(|p| homotopy.place(p, coordinate)).collect()
     }
 }
 

@@ -2,7 +2,6 @@
 //!
 //! Seen in floats, and said so: nothing of a proof rests on it.
 
-use crate::constraint::Role;
 use crate::equations::{left_side, slopes};
 use crate::linalg::{Linear, linearised, nearest};
 use crate::problem::list;
@@ -32,7 +31,8 @@ pub fn in_words(homotopy: &Homotopy, z: &[f64], t: f64) -> Option<String> {
     let target = Target::new(homotopy);
     let size = z[..m].iter().fold(1.0, |max: f64, x| max.max(x.abs()));
     let x = target.nearest(DVector::from_column_slice(&z[..m]), size);
-    if target.off(&x) >= MET.sqrt() * size * size || !is_proper(homotopy, &x) {
+    let are_positive = homotopy.positive_unknowns().iter().all(|&i| x[i] > 1e-6);
+    if target.off(&x) >= MET.sqrt() * size * size || !are_positive {
         return None;
     }
     let decomposed = target.linearise(x.as_slice()).0.svd(false, true);
@@ -61,14 +61,6 @@ pub fn in_words(homotopy: &Homotopy, z: &[f64], t: f64) -> Option<String> {
             ),
         } + " (seen in floats)",
     )
-}
-
-/// Lengths are positive there, and no vector vanishes that must not.
-fn is_proper(homotopy: &Homotopy, x: &DVector<f64>) -> bool {
-    let first = homotopy.gauge.place.len();
-    let unknowns = homotopy.tail.unknowns.iter().enumerate();
-    let mut lengths = unknowns.filter(|(_, unknown)| unknown.role == Role::Positive);
-    lengths.all(|(k, _)| x[first + k] > 1e-6)
 }
 
 /// The points that move most, those first that move by more.

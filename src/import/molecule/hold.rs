@@ -1,6 +1,6 @@
 //! What holds a molecule: as many constraints as it has free coordinates, those of bonds first.
 
-use crate::interval::vector::{cross, dot, minus};
+use crate::interval::vector::{cross, dot, length, minus};
 use crate::linalg::Span;
 use crate::order::InOrder;
 use crate::places::array;
@@ -306,8 +306,4 @@ impl<'a> Rank<'a> {
             }
         }
     }
-}
-
-fn length(a: Place) -> f64 {
-    dot(a, a).sqrt()
 }
