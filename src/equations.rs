@@ -3,6 +3,7 @@
 //! They are written once, for entries of any kind (a coordinate of a point, the number of an unknown) and factors of any
 //! kind, and evaluated once, over any [`Ring`].
 
+use num_rational::BigRational;
 use std::ops::{Add, Mul, Sub};
 
 /// Numbers that sums and products are made of: floats, intervals, residues modulo a prime, complex numbers.
@@ -14,6 +15,25 @@ pub trait Ring: Clone + Add<Output = Self> + Sub<Output = Self> + Mul<Output = S
 impl Ring for f64 {
     fn whole(number: i32) -> Self {
         number.into()
+    }
+}
+
+impl Ring for BigRational {
+    fn whole(number: i32) -> Self {
+        BigRational::from_integer(number.into())
+    }
+}
+
+/// Numbers that can be halved.
+pub trait Halved: Ring {
+    /// So many halves of it.
+    fn halves(self, count: i32) -> Self;
+}
+
+impl Halved for f64 {
+    #[inline]
+    fn halves(self, count: i32) -> Self {
+        0.5 * f64::from(count) * self
     }
 }
 
@@ -112,6 +132,93 @@ impl<E: Copy + PartialEq, F: Copy> Product<E, F> {
                 this.entries()
                     .map(move |(entry, sign)| (entry, sign, slope.clone()))
             })
+    }
+}
+
+/// A product multiplied out in some of its entries, while the others have values: all but its factor.
+pub struct Expansion<T> {
+    /// Two of these entries, by their places in order, with signs.
+    pub products: Vec<((usize, usize), i32)>,
+    /// One of them and what it is multiplied with: those of one entry are to be added.
+    pub linear: Vec<(usize, T)>,
+    /// What has none of them.
+    pub constant: T,
+}
+
+impl<E: Copy + PartialEq, F: Copy> Product<E, F> {
+    /// Multiplies it out in the entries that have places; `Err` is the value of another one.
+    pub fn expand<T: Ring>(self, of: impl Fn(E) -> Result<usize, T>) -> Expansion<T> {
+        let side = |form: Form<E>| {
+            let mut own = Vec::new();
+            let mut rest = T::whole((form == Form::One).into());
+            for (entry, sign) in form.entries() {
+                match of(entry) {
+                    Ok(place) => own.push((place, sign)),
+                    Err(value) => rest = rest + T::whole(sign) * value,
+                }
+            }
+            (own, rest)
+        };
+        let [(left, a), (right, b)] = self.forms().map(side);
+        let mut products = Vec::new();
+        for &(i, f) in &left {
+            products.extend(right.iter().map(|&(j, g)| ((i.min(j), i.max(j)), f * g)));
+        }
+        let by = |(k, sign), other: &T| (k, T::whole(sign) * other.clone());
+        let linear = left.into_iter().map(|own| by(own, &b));
+        let linear = linear.chain(right.into_iter().map(|own| by(own, &a)));
+        Expansion {
+            products,
+            linear: linear.collect(),
+            constant: a * b,
+        }
+    }
+}
+
+/// Makes numbers that have methods for sums and products a [`Ring`].
+macro_rules! ring {
+    ($number:ty, $whole:expr) => {
+        $crate::equations::ring!($number, Add add plus);
+        $crate::equations::ring!($number, Sub sub minus);
+        $crate::equations::ring!($number, Mul mul times);
+        impl $crate::equations::Ring for $number {
+            fn whole(number: i32) -> Self {
+                $whole(number.into())
+            }
+        }
+    };
+    ($number:ty, $operator:ident $operate:ident $method:ident) => {
+        impl std::ops::$operator for $number {
+            type Output = Self;
+            fn $operate(self, other: Self) -> Self {
+                self.$method(&other)
+            }
+        }
+    };
+}
+pub(crate) use ring;
+
+/// ½ Σ factor · left · right, the left-hand side of an equation, where entries have these values.
+#[inline]
+pub fn left_side<E: Copy + PartialEq, T: Halved>(
+    products: &[Product<E>],
+    at: impl Fn(E) -> T,
+) -> T {
+    let terms = products.iter();
+    terms.fold(T::whole(0), |sum, p| sum + p.value(&at).halves(p.factor))
+}
+
+/// The derivatives of ½ Σ factor · left · right, told one by one: those of one entry are to be added.
+#[inline]
+pub fn slopes<'p, E: Copy + PartialEq + 'p, T: Halved>(
+    products: impl IntoIterator<Item = &'p Product<E>>,
+    at: impl Fn(E) -> T,
+    mut tell: impl FnMut(E, T),
+) {
+    for p in products {
+        for (entry, sign, other) in p.derivatives(&at) {
+            tell(entry, other.halves(sign * p.factor));
+        }
     }
 }
 

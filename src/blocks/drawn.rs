@@ -7,11 +7,10 @@
 
 use super::{Choice, FINE, Row, System};
 use crate::constraint::{Equation, Role};
-use crate::equations::Form;
+use crate::equations::{Form, left_side, slopes};
 use crate::interval::{Real, point};
-use crate::linalg::nearest_zero;
+use crate::linalg::{Linear, linearised, nearest_zero, scaled};
 use crate::random::Random;
-use nalgebra::{DMatrix, DVector};
 use num_rational::BigRational;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -59,19 +58,10 @@ impl<'a> Floats<'a> {
     }
 
     /// The Jacobian of some rows, each scaled to length 1, and by how much their left-hand sides, scaled, are too large.
-    pub fn linearise(&self, rows: &[usize], at: &[f64]) -> (DMatrix<f64>, DVector<f64>) {
-        let mut jacobian = DMatrix::zeros(rows.len(), at.len());
-        let mut off = DVector::zeros(rows.len());
-        for (r, &row) in rows.iter().enumerate() {
-            let value = self.system.rows[row].evaluate(at, |u, slope| jacobian[(r, u)] += slope);
-            off[r] = value - self.target[row];
-            let size = jacobian.row(r).norm();
-            if size > 0.0 {
-                jacobian.row_mut(r).scale_mut(1.0 / size);
-                off[r] /= size;
-            }
-        }
-        (jacobian, off)
+    pub fn linearise(&self, rows: &[usize], at: &[f64]) -> Linear {
+        scaled(linearised((rows.len(), at.len()), |r, slope| {
+            self.system.rows[rows[r]].evaluate(at, slope) - self.target[rows[r]]
+        }))
     }
 
     /// The fewest of some rows that depend on each other at a place, of which the others say what this one does: with it.
@@ -102,11 +92,7 @@ impl<'a> Floats<'a> {
     }
 
     /// The same of rows that are linearised so.
-    pub fn zero(
-        &self,
-        at: Vec<f64>,
-        linearise: impl Fn(&[f64]) -> (DMatrix<f64>, DVector<f64>),
-    ) -> Option<Vec<f64>> {
+    pub fn zero(&self, at: Vec<f64>, linearise: impl Fn(&[f64]) -> Linear) -> Option<Vec<f64>> {
         let at = nearest_zero(at, 1e-10, linearise)?;
         let all = self.system.unknowns.iter().zip(&at);
         let mut positive = all.filter(|(unknown, _)| unknown.role == Role::Positive);
@@ -176,17 +162,10 @@ impl Row {
     /// The value of the left-hand side at a place, and its derivatives, one by one.
     pub(crate) fn evaluate(&self, at: &[f64], mut slope: impl FnMut(usize, f64)) -> f64 {
         let value = |entry: Option<usize>| entry.map_or(0.0, |u| at[u]);
-        let mut sum = 0.0;
-        for p in &self.products {
-            let half = 0.5 * f64::from(p.factor);
-            sum += half * p.value(value);
-            for (entry, sign, other) in p.derivatives(value) {
-                if let Some(u) = entry {
-                    slope(u, f64::from(sign) * half * other);
-                }
-            }
-        }
-        sum
+        slopes(&self.products, value, |entry, by| {
+            entry.into_iter().for_each(|u| slope(u, by));
+        });
+        left_side(&self.products, value)
     }
 }
 

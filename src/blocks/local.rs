@@ -17,30 +17,12 @@ pub struct Local {
     pub constant: Number,
 }
 
-/// A factor of a product: multiples of unknowns, and a number.
-struct Side {
-    unknowns: Vec<(usize, i64)>,
-    constant: Number,
-}
-
 impl Local {
     /// A row as an equation of some unknowns, with the values of all others, and what it is to be.
     pub fn new(row: &Row, own: &[usize], value: impl Fn(usize) -> Number, right: &Number) -> Self {
-        let side = |form: Form<Option<usize>>| -> Side {
-            let one = if form == Form::One { 2 } else { 0 };
-            let mut side = Side {
-                unknowns: Vec::new(),
-                constant: Number::halves(one),
-            };
-            for (entry, sign) in form.entries() {
-                let Some(u) = entry else { continue };
-                match own.iter().position(|&o| o == u) {
-                    Some(k) => side.unknowns.push((k, sign.into())),
-                    None if sign > 0 => side.constant = side.constant.plus(&value(u)),
-                    None => side.constant = side.constant.minus(&value(u)),
-                }
-            }
-            side
+        let of = |entry: Option<usize>| match entry {
+            None => Err(Number::halves(0)),
+            Some(u) => own.iter().position(|&o| o == u).ok_or_else(|| value(u)),
         };
         let mut out = Local {
             quadratic: BTreeMap::new(),
@@ -48,22 +30,15 @@ impl Local {
             constant: Number::halves(0).minus(right),
         };
         for p in &row.products {
-            let (left, right) = (side(p.left), side(p.right));
+            let parts = p.expand(of);
             let half = Number::halves(p.factor.into());
-            for &(i, f) in &left.unknowns {
-                for &(j, g) in &right.unknowns {
-                    *out.quadratic.entry((i.min(j), i.max(j))).or_default() +=
-                        i64::from(p.factor) * f * g;
-                }
+            for (key, sign) in parts.products {
+                *out.quadratic.entry(key).or_default() += i64::from(p.factor * sign);
             }
-            for (one, other) in [(&left, &right), (&right, &left)] {
-                for &(i, f) in &one.unknowns {
-                    let by = Number::halves(i64::from(p.factor) * f);
-                    out.linear[i] = out.linear[i].plus(&by.times(&other.constant));
-                }
+            for (i, by) in parts.linear {
+                out.linear[i] = out.linear[i].plus(&half.times(&by));
             }
-            let constant = half.times(&left.constant).times(&right.constant);
-            out.constant = out.constant.plus(&constant);
+            out.constant = out.constant.plus(&half.times(&parts.constant));
         }
         out.quadratic.retain(|_, factor| *factor != 0);
         out

@@ -1,5 +1,6 @@
 //! Numbers that are known exactly as long as they are ratios, and otherwise between two floats.
 
+use crate::equations::ring;
 use crate::interval::{Interval, Real, enclose_rational};
 use num_rational::BigRational;
 use num_traits::{Signed, Zero};
@@ -16,6 +17,8 @@ pub struct Number {
     exact: Option<BigRational>,
     within: Interval,
 }
+
+ring!(Number, |number: i64| Number::halves(2 * number));
 
 impl Number {
     /// A ratio.

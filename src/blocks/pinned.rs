@@ -1,6 +1,7 @@
 //! A figure up to motions, held in the frame of its sketch.
 
 use crate::constraint::KINDS;
+use crate::interval::vector::cross;
 use crate::order::InOrder;
 use crate::places::{Each as _, array};
 use crate::problem::{Constraint, Decimal, Item, Problem};
@@ -38,11 +39,7 @@ pub fn pinned(problem: &Problem) -> Option<Problem> {
             .filter(|&axis| axis != along)
             .for_each(|axis| hold_axis(second, axis));
         if let Some(&third) = reference.get(2) {
-            let (u, v) = (from_first(second), from_first(third));
-            let normal = array(|k| {
-                let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-                u[i] * v[j] - u[j] * v[i]
-            });
+            let normal = cross(from_first(second), from_first(third));
             hold_axis(third, largest(normal)?);
         }
     }

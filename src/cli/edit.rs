@@ -168,10 +168,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let mut cert = arguments.cert.as_deref();
     if cert.is_some() {
         match certified(&arguments.file, &problem, |session| {
-            let mut control = Control {
-                cancel: Some(interrupt::flag()),
-                ..Control::default()
-            };
+            let mut control = interrupt::control();
             let edited = session.probe(&settings, &mut control);
             account = Some(edited.account.clone());
             astray = edited.astray.as_ref().map(Astray::in_words);

@@ -270,9 +270,8 @@ fn trace(explorer: &Explorer, quiet: bool) -> Vec<TracedPath> {
         let mut line = ProgressLine::new(!quiet, &format!("picture {} of {}", k + 1, ids.len()));
         let mut show = |now: track::Progress| line.show(now);
         let mut control = Control {
-            cancel: Some(interrupt::flag()),
             progress: Some(&mut show),
-            ..Control::default()
+            ..interrupt::control()
         };
         let traced = track::trace_path(&problem, &track::Options::certified(), &mut control);
         line.clear();
@@ -314,9 +313,8 @@ fn prove(explorer: &Explorer, folder: &Path, quiet: bool) -> Result<bool, String
         let beside = Beside::new(&cert)?;
         let mut writer = Writer::new(BufWriter::new(beside.file()), &problem);
         let mut control = Control {
-            cancel: Some(interrupt::flag()),
             witness: Some(&mut writer as &mut dyn Witness),
-            ..Control::default()
+            ..interrupt::control()
         };
         track::solve_in_best_space(&problem, &track::Options::certified(), &mut control)
             .map_err(|error| format!("{}: {error}", text.display()))?;

@@ -1,5 +1,6 @@
 //! Ctrl-C: once to stop cleanly, twice to stop at once; and `--time`, which is as Ctrl-C after so many seconds.
 
+use krawl::track::Control;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
@@ -17,6 +18,14 @@ pub fn flag() -> &'static AtomicBool {
         }
     });
     &REQUESTED
+}
+
+/// A run that the first Ctrl-C stops.
+pub fn control<'a>() -> Control<'a> {
+    Control {
+        cancel: Some(flag()),
+        ..Control::default()
+    }
 }
 
 /// How long a verb may take.

@@ -7,7 +7,6 @@ use super::{BAD_INPUT, CLOSED, STOPPED, input, interrupt};
 use krawl::edit::{End, Setting};
 use krawl::report::page::Page;
 use krawl::report::{ranges_to_table, ranges_to_value};
-use krawl::track::Control;
 use std::path::PathBuf;
 
 /// For every dimension, the values over which it can move alone, all others standing still, with proof
@@ -62,10 +61,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         .map_err(|error| format!("{shown}: {error}"))?;
     let json = beside(&arguments.file, arguments.json.as_deref())?;
     let pictures = arguments.pictures.places([&arguments.file])?;
-    let mut control = Control {
-        cancel: Some(interrupt::flag()),
-        ..Control::default()
-    };
+    let mut control = interrupt::control();
     let mut session = match open(
         &problem,
         &arguments.file,

@@ -8,7 +8,7 @@ use super::{BAD_INPUT, CLOSED, OPEN, STOPPED, input, interrupt};
 use krawl::motion::Motion;
 use krawl::report::page::Page;
 use krawl::report::{motion_in_words, motion_to_csv, motion_to_table, motion_to_value};
-use krawl::track::{Control, Options};
+use krawl::track::Options;
 use std::path::PathBuf;
 
 /// Follow a linkage all the way round, with proof: between which bounds its lengths and angles stay, and where
@@ -65,10 +65,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let json = beside(&arguments.file, arguments.json.as_deref())?;
     let csv = beside(&arguments.file, arguments.csv.as_deref())?;
     let pictures = arguments.pictures.places([&arguments.file])?;
-    let mut control = Control {
-        cancel: Some(interrupt::flag()),
-        ..Control::default()
-    };
+    let mut control = interrupt::control();
     let motion = Motion::of(
         &problem,
         &arguments.free,

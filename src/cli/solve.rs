@@ -718,12 +718,11 @@ impl Arguments {
             ..self.options()
         };
         let mut control = Control {
-            cancel: Some(interrupt::flag()),
             limit: Some(Limit {
                 length: f64::INFINITY,
                 deadline: Instant::now() + LONGEST,
             }),
-            ..Control::default()
+            ..interrupt::control()
         };
         alone(problem, &options, &mut control)
     }
@@ -780,10 +779,7 @@ impl Arguments {
     /// The figures of a sketch in its own frame, with `--first` the nearest one with its senses: as text, as a value for
     /// JSON, and the exit code.
     fn by_blocks(&self, problem: &Problem) -> Result<(String, Value, u8, Found), String> {
-        let mut control = Control {
-            cancel: Some(interrupt::flag()),
-            ..Control::default()
-        };
+        let mut control = interrupt::control();
         let figures = Figures::find(problem, &self.options(), &mut control)?;
         let mut listed = match self.all {
             true => Listed::All,
@@ -1002,9 +998,8 @@ fn follow_first(
     let mut line = ProgressLine::new(!arguments.quiet, which);
     let mut show = |now: Progress| line.show(now);
     let mut control = Control {
-        cancel: Some(interrupt::flag()),
         progress: Some(&mut show),
-        ..Control::default()
+        ..interrupt::control()
     };
     let options = arguments.options();
     let space = arguments.space.map(|_| options.space);
@@ -1024,9 +1019,8 @@ fn follow_finely(
     let mut line = ProgressLine::new(!arguments.quiet, format!("{which} picture").trim_start());
     let mut show = |now: Progress| line.show(now);
     let mut control = Control {
-        cancel: Some(interrupt::flag()),
         progress: Some(&mut show),
-        ..Control::default()
+        ..interrupt::control()
     };
     let traced = track::trace_path(problem, &arguments.options(), &mut control);
     line.clear();

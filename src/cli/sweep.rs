@@ -127,10 +127,7 @@ fn drive(arguments: &Arguments, vary: &str, ends: [&str; 2]) -> Result<u8, Strin
     if cert.is_some() {
         let frames = arguments.frames as usize;
         match certified(&arguments.file, &problem, |session| {
-            let mut control = Control {
-                cancel: Some(interrupt::flag()),
-                ..Control::default()
-            };
+            let mut control = interrupt::control();
             let sweep = session.sweep(index, (&from, &to), frames, &mut control);
             account = Some(sweep.account.clone());
             let last = sweep.end.as_ref().unwrap_or(&sweep.approach);

@@ -7,7 +7,7 @@ use super::{BAD_INPUT, CLOSED, STOPPED, input, interrupt};
 use krawl::problem::Decimal;
 use krawl::report::{tolerances_in_words, tolerances_to_table, tolerances_to_value};
 use krawl::tolerance::{limits, study};
-use krawl::track::{Control, Options};
+use krawl::track::Options;
 use std::path::PathBuf;
 
 /// Every dimension within its limits: between which bounds lengths, angles and areas of the figure then are, with proof
@@ -67,10 +67,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let named = named.collect::<Result<Vec<_>, String>>()?;
     let in_file = |error: String| format!("{shown}: {error}");
     let limits = limits(&problem, &named, default.as_ref()).map_err(in_file)?;
-    let mut control = Control {
-        cancel: Some(interrupt::flag()),
-        ..Control::default()
-    };
+    let mut control = interrupt::control();
     let study = study(
         &problem,
         &limits,

@@ -35,13 +35,20 @@ pub struct Prover {
 
 const FIXED: usize = usize::MAX;
 
-/// Why no figure was proved.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Doubt {
-    /// Newton's method leads away.
-    Away,
-    /// The matrix is singular, or nearly.
-    Singular,
+/// How far the zero of quadratic equations F is from a point x, and how far around it there is no other, which is looked for up to `most`; both in
+/// the norm max |w_i|. With Y ≈ J(x)⁻¹, ‖I − Y J(x + w)‖ ≤ q₀ + κ|w|, so that there is at most one zero for |w| < (1 − q₀)/κ, and exactly one,
+/// at most ‖Y F(x)‖/(1 − q) away, where that is small enough. `step`: a bound on ‖Y F(x)‖. `None`: no zero is proved.
+pub fn alone([q0, kappa, step]: [f64; 3], most: f64) -> Option<[f64; 2]> {
+    if !(q0 < 0.5 && kappa < 1e30) {
+        return None;
+    }
+    let alone = match kappa > 0.0 {
+        true => (0.9 * (0.9 - q0) / kappa).min(most),
+        false => most,
+    };
+    let q = round_up(q0 + kappa * alone, 4);
+    let radius = round_up(step / (1.0 - q), 8);
+    (q < 1.0 && radius < 0.1 * alone).then_some([radius, alone])
 }
 
 impl Prover {
@@ -121,10 +128,8 @@ impl Prover {
         }
     }
 
-    /// Newton's method from a guess, then the test with the norm max |w_i|: with Y ≈ J(x)⁻¹,
-    /// |I − Y J(x + w)| ≤ q₀ + κ|w|; so there is at most one figure for |w| < (1 − q₀)/κ, F being
-    /// quadratic, and exactly one, at most |Y F(x)|/(1 − q) away, where that is small enough.
-    pub fn prove(&self, guess: &[[f64; 3]]) -> Result<Figure, Doubt> {
+    /// Newton's method from a guess, then the test that [`alone`] ends. `None`: no figure was proved.
+    pub fn prove(&self, guess: &[[f64; 3]]) -> Option<Figure> {
         let m = self.m;
         let mut x = guess.to_vec();
         let (mut f, mut step) = (vec![0.0; m], vec![0.0; m]);
@@ -135,7 +140,7 @@ impl Prover {
             if round < 5 {
                 self.jacobian(&x, &mut y);
                 if !invert(&mut y, m) {
-                    return Err(Doubt::Singular);
+                    return None;
                 }
             }
             self.residual(&x, &mut f);
@@ -148,7 +153,7 @@ impl Prover {
             }
             let size = step.iter().fold(0.0, |a, x| largest(a, x.abs()));
             if !(size < 1.0) {
-                return Err(Doubt::Away);
+                return None;
             }
             self.moved(&mut x, &step, -1.0);
             let done = size < 1e-15 || (size >= 0.5 * last && size < 1e-11);
@@ -158,13 +163,13 @@ impl Prover {
             }
         }
         if !(last < 1e-7) && m > 0 {
-            return Err(Doubt::Away);
+            return None;
         }
         self.jacobian(&x, &mut y);
         if !invert(&mut y, m) {
-            return Err(Doubt::Singular);
+            return None;
         }
-        self.test(x, &y).ok_or(Doubt::Singular)
+        self.test(x, &y)
     }
 
     fn test(&self, x: Vec<[f64; 3]>, y: &[f64]) -> Option<Figure> {
@@ -213,19 +218,7 @@ impl Prover {
             kappa = largest(kappa, round_up(change, m + 6));
             step = largest(step, round_up(off, m + 6));
         }
-        if !(q0 < 0.5 && kappa < 1e30) {
-            return None;
-        }
-        let alone = if kappa > 0.0 {
-            (0.9 * (0.9 - q0) / kappa).min(1.0)
-        } else {
-            1.0
-        };
-        let q = round_up(q0 + kappa * alone, 4);
-        let radius = round_up(step / (1.0 - q), 8);
-        if !(q < 1.0 && radius < 0.1 * alone) {
-            return None;
-        }
+        let [radius, alone] = alone([q0, kappa, step], 1.0)?;
         // A figure in the base, not one reflected in an axis of it.
         let mut upper = true;
         for (i, value) in self.free(&x) {

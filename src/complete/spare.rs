@@ -3,14 +3,14 @@
 //! Seen in floats; what is claimed of the equations used does not rest on it, and what was left out is tested for itself.
 
 use crate::constraint::{Entry, Equation, Form, Lowered, Product, Spare};
+use crate::equations::{left_side, slopes};
 use crate::interval::Interval;
-use crate::linalg::Span;
+use crate::linalg::{Span, linearised, nearest};
 use crate::order::InOrder;
 use crate::problem::Problem;
 use crate::system::Gauge;
+use nalgebra::DVector;
 
-/// Steps towards a figure that meets all equations, at most.
-const STEPS: usize = 60;
 /// Of more unknowns the sketch is taken as it is.
 const MOST_UNKNOWNS: usize = 300;
 
@@ -54,93 +54,32 @@ impl Equations<'_> {
             .collect()
     }
 
-    /// How far an equation is from holding, and its derivatives.
-    fn row(&self, equation: &Equation, x: &[f64]) -> (f64, Vec<f64>) {
+    /// How far an equation is from holding, and its derivatives, told one by one.
+    fn row(&self, equation: &Equation, x: &[f64], mut tell: impl FnMut(usize, f64)) -> f64 {
         let value = |entry: Entry| self.column(entry).map_or_else(|fixed| fixed, |c| x[c]);
         let right: f64 = equation.right.iter().map(|e| e.enclose().mid()).sum();
-        let (mut off, mut row) = (-right / self.unit.powi(equation.power), vec![0.0; x.len()]);
-        for product in &equation.products {
-            let factor = 0.5 * f64::from(product.factor);
-            off += factor * product.value(value);
-            for (entry, sign, other) in product.derivatives(value) {
-                if let Ok(column) = self.column(entry) {
-                    row[column] += f64::from(sign) * factor * other;
-                }
-            }
-        }
-        (off, row)
+        slopes(&equation.products, value, |entry, slope| {
+            self.column(entry).into_iter().for_each(|c| tell(c, slope));
+        });
+        left_side(&equation.products, value) - right / self.unit.powi(equation.power)
     }
 
     /// The unknowns where all equations are met as nearly as can be reached from the sketch (Levenberg and Marquardt).
     fn nearest(&self) -> Vec<f64> {
-        let mut x = self.start();
+        let x = self.start();
         let m = x.len();
         if m > MOST_UNKNOWNS {
             return x;
         }
         let equations = &self.lowered.tail.equations;
-        let rows = |x: &[f64]| -> Vec<(f64, Vec<f64>)> {
-            equations
-                .iter()
-                .map(|equation| self.row(equation, x))
-                .collect()
+        let linearise = |x: &[f64]| {
+            linearised((equations.len(), m), |e, slope| {
+                self.row(&equations[e], x, slope)
+            })
         };
-        let sum = |rows: &[(f64, Vec<f64>)]| rows.iter().map(|(off, _)| off * off).sum::<f64>();
-        let (mut damping, mut now) = (1e-3, rows(&x));
-        for _ in 0..STEPS {
-            if sum(&now) < 1e-26 {
-                break;
-            }
-            let mut a = vec![0.0; m * m];
-            let mut right = vec![0.0; m];
-            for (off, row) in &now {
-                for i in (0..m).filter(|&i| row[i] != 0.0) {
-                    right[i] += row[i] * off;
-                    for k in 0..m {
-                        a[i * m + k] += row[i] * row[k];
-                    }
-                }
-            }
-            (0..m).for_each(|i| a[i * m + i] += damping);
-            let Some(step) = solved(a, right) else {
-                break;
-            };
-            let next: Vec<f64> = x.iter().zip(&step).map(|(x, s)| x - s).collect();
-            let then = rows(&next);
-            match sum(&then) < sum(&now) {
-                true => (x, now, damping) = (next, then, (0.2 * damping).max(1e-13)),
-                false => damping *= 8.0,
-            }
-        }
-        x
+        let x = nearest(DVector::from_vec(x), [1e-13, 1.0], linearise);
+        x.data.into()
     }
-}
-
-/// Solves equations with a positive matrix by elimination.
-fn solved(mut a: Vec<f64>, mut right: Vec<f64>) -> Option<Vec<f64>> {
-    let m = right.len();
-    for k in 0..m {
-        let pivot = a[k * m + k];
-        if !(pivot > 0.0) {
-            return None;
-        }
-        for i in k + 1..m {
-            let factor = a[i * m + k] / pivot;
-            if factor != 0.0 {
-                for j in k..m {
-                    a[i * m + j] -= factor * a[k * m + j];
-                }
-                right[i] -= factor * right[k];
-            }
-        }
-    }
-    for k in (0..m).rev() {
-        for j in k + 1..m {
-            right[k] -= a[k * m + j] * right[j];
-        }
-        right[k] /= a[k * m + k];
-    }
-    Some(right)
 }
 
 /// Leaves out as many equations as there are more than unknowns: those that say nothing new beside the others. What defines objects and unknowns
@@ -174,7 +113,9 @@ pub(super) fn make_square(
     let mut is_used = vec![false; order.len()];
     let mut span = Span::default();
     for e in order {
-        is_used[e] = span.take([equations.row(&lowered.tail.equations[e], &x).1]);
+        let mut row = vec![0.0; width];
+        equations.row(&lowered.tail.equations[e], &x, |c, slope| row[c] += slope);
+        is_used[e] = span.take([row]);
     }
     if span.rank() < width {
         return Err(format!(

@@ -10,7 +10,7 @@ use crate::blocks::{Account, LeftOut, MOST_POINTS, Ruler, Verdict};
 use crate::interval::{Interval, enclose, point};
 use crate::linalg::Span;
 use crate::places::Each as _;
-use crate::problem::{Decimal, Distance, Problem, Target, free_coordinates, rigidity};
+use crate::problem::{Distance, Problem, Target, free_coordinates, rigidity};
 use crate::system::typical_length;
 use crate::track::Solution;
 
@@ -88,11 +88,7 @@ impl Surplus {
             return None;
         }
         let mut span = Span::default();
-        let places = problem
-            .points
-            .iter()
-            .map(|p| p.sketch.each_ref().each(Decimal::to_f64));
-        let places: Vec<[f64; 3]> = places.collect();
+        let places = problem.places();
         let row = |&[a, b]: &[usize; 2]| {
             let mut row = vec![0.0; d * n];
             for k in 0..d {

@@ -3,7 +3,7 @@
 
 use super::contract::contract;
 use super::cover::Marks;
-use super::krawczyk::{Doubt, Figure};
+use super::krawczyk::Figure;
 use super::model::{Model, Range};
 use super::node::{MAX_SYMBOLS, Node, Sign};
 use super::place::{Place, Placed, place, squared_distance};
@@ -395,14 +395,12 @@ impl<'a, const D: usize, const S: usize, const M: usize> Visit<'a, D, S, M> {
                 .map(|p| array(|k| if k < D { p[k].c[0] } else { 0.0 }))
                 .collect();
             match search.prover.prove(&guess) {
-                Ok(figure) if self.is_alone(&figure) => {
+                Some(figure) if self.is_alone(&figure) => {
                     self.found.marks.put(Mark::Figure, S);
                     self.found.figures.push(figure);
                     return;
                 }
-                Err(Doubt::Singular | Doubt::Away)
-                    if self.node.depth.is_multiple_of(4) && search.flexes(&guess) =>
-                {
+                None if self.node.depth.is_multiple_of(4) && search.flexes(&guess) => {
                     let share = self.node.share;
                     return self.found.leave(share, Why::Flexible);
                 }

@@ -23,7 +23,7 @@ use super::boxes::SolutionBox;
 use super::exact::Exact;
 use super::matrix::Matrix;
 use super::system::System;
-use crate::equations::Form;
+use crate::equations::{Form, slopes};
 use crate::interval::complex::Complex;
 use crate::interval::rounding::{UNDERFLOW, in_range, largest, round_up};
 use crate::interval::{DoubleDouble, gamma_double};
@@ -132,30 +132,22 @@ impl EndProver {
         }
     }
 
-    /// What stands in the Jacobian: row, column, value.
+    /// Tells what stands in the Jacobian: row, column, value.
     ///
     /// A value passes through a difference and a product before it is added to an entry.
-    fn slopes<'a>(&'a self, x: &'a [Z]) -> impl Iterator<Item = (usize, usize, Z)> + 'a {
+    fn slopes(&self, x: &[Z], mut tell: impl FnMut(usize, usize, Z)) {
         let at = |entry: Option<usize>| entry.map(|i| x[i]).unwrap_or_default();
-        let equations = self.system.equations.iter().enumerate();
-        equations.flat_map(move |(e, equation)| {
-            equation.terms.iter().flat_map(move |term| {
-                let factor = DoubleDouble::from(0.5 * f64::from(term.factor));
-                term.derivatives(at)
-                    .filter_map(move |(unknown, sign, other)| {
-                        let slope = other.times(factor);
-                        Some((e, unknown?, if sign > 0 { slope } else { -slope }))
-                    })
-            })
-        })
+        for (e, equation) in self.system.equations.iter().enumerate() {
+            slopes(&equation.terms, at, |unknown, slope| {
+                unknown.into_iter().for_each(|u| tell(e, u, slope));
+            });
+        }
     }
 
     fn eliminate(&mut self, x: &[Z]) -> Result<(), String> {
         let mut matrix = std::mem::replace(&mut self.matrix, Matrix::new(0));
         matrix.clear();
-        for (e, unknown, slope) in self.slopes(x) {
-            matrix.add(e, unknown, slope);
-        }
+        self.slopes(x, |e, unknown, slope| matrix.add(e, unknown, slope));
         let regular = matrix.eliminate();
         self.matrix = matrix;
         match regular {
@@ -212,10 +204,10 @@ impl EndProver {
         // J with |Re| + |Im| of all that is added up to each entry.
         let mut rows: Vec<Vec<(usize, Z, f64)>> = vec![Vec::new(); n];
         let mut longest = 0;
-        for (e, unknown, slope) in self.slopes(x) {
+        self.slopes(x, |e, unknown, slope| {
             rows[e].push((unknown, slope, slope.sum_of_sizes()));
             longest = longest.max(rows[e].len());
-        }
+        });
         let (f, errors) = self.residual(x)?;
         // A slope passes through a difference and a product with a real number before it is multiplied with an entry of Y,
         // which takes a product and a sum of two, and then is added to at most as many as there are slopes.

@@ -1,5 +1,6 @@
 //! Complex numbers that are exact, and random ones.
 
+use crate::equations::ring;
 use crate::interval::Real;
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -13,6 +14,8 @@ pub struct Exact {
     /// The imaginary part.
     pub im: BigRational,
 }
+
+ring!(Exact, Exact::whole);
 
 impl Exact {
     /// Zero.

@@ -12,7 +12,7 @@
 
 use super::matrix::Matrix;
 use super::system::System;
-use crate::equations::{Form, Product};
+use crate::equations::{Form, Halved as _, Product, left_side, slopes};
 use crate::interval::DoubleDouble;
 use crate::interval::complex::{Complex, Number};
 use crate::places::{Each as _, array};
@@ -144,14 +144,11 @@ impl<'a> FloatFollower<'a> {
     }
 }
 
-/// One term of an equation. Entry n is zero.
-type Term = Product<usize, f64>;
-
 /// Takes steps along paths in numbers of one kind.
 struct Stepper<N> {
     n: usize,
-    /// Terms, and where each equation's begin.
-    terms: Vec<Term>,
+    /// Terms, in which entry n is zero, and where each equation's begin.
+    terms: Vec<Product<usize>>,
     first: Vec<usize>,
     /// Taylor coefficients of the unknowns, then of every term's two forms. Unknown n is zero.
     x: Vec<[Complex<N>; ORDER + 1]>,
@@ -172,10 +169,8 @@ impl<N: Number> Stepper<N> {
         let n = system.unknowns.len();
         let (mut terms, mut first) = (Vec::new(), vec![0]);
         for equation in &system.equations {
-            terms.extend(equation.terms.iter().map(|term| {
-                let [left, right] = term.forms().each(|form| form.map(|i| i.unwrap_or(n)));
-                Term::new(0.5 * f64::from(term.factor), left, right)
-            }));
+            let numbered = equation.terms.iter();
+            terms.extend(numbered.map(|term| term.map(|i| i.unwrap_or(n))));
             first.push(terms.len());
         }
         let coefficients = |parts: &[Right]| -> [Complex<N>; 3] {
@@ -289,7 +284,7 @@ impl<N: Number> Stepper<N> {
                         let [left, other] = &self.forms[term];
                         let products = (1..order).map(|i| left[i] * other[order - i]);
                         let sum = products.fold(zero, |sum, product| sum + product);
-                        right = right - sum.times(self.terms[term].factor.into());
+                        right = right - sum.halves(self.terms[term].factor);
                     }
                     self.right[e] = right;
                 }
@@ -382,22 +377,19 @@ impl<N: Number> Stepper<N> {
         self.low[k] = Complex::new(re.lo, im.lo);
     }
 
+    fn terms_of(&self, e: usize) -> &[Product<usize>] {
+        &self.terms[self.first[e]..self.first[e + 1]]
+    }
+
     /// What an equation lacks.
     fn residual(&self, e: usize, t: f64) -> Complex<N> {
-        let mut value = -self.wanted(e, t);
-        for term in &self.terms[self.first[e]..self.first[e + 1]] {
-            value = value + term.value(|i| self.there[i]).times(term.factor.into());
-        }
-        value
+        left_side(self.terms_of(e), |i| self.there[i]) - self.wanted(e, t)
     }
 
     /// The same in double-doubles where `there` and `low` are floats.
     fn precise_residual(&self, e: usize, t: f64) -> Complex<N> {
         let wanted = self.wanted(e, t);
-        let mut sum = -Complex::new(
-            DoubleDouble::from(wanted.re.rough()),
-            wanted.im.rough().into(),
-        );
+        let wanted = wanted.map(|part| DoubleDouble::from(part.rough()));
         let number = |k: usize| {
             let (x, low) = (self.there[k], self.low[k]);
             Complex::new(
@@ -405,26 +397,24 @@ impl<N: Number> Stepper<N> {
                 DoubleDouble::sum(x.im.rough(), low.im),
             )
         };
-        for term in &self.terms[self.first[e]..self.first[e + 1]] {
-            sum = sum + term.value(number).times(term.factor.into());
-        }
-        Complex::new(sum.re.hi.into(), sum.im.hi.into())
+        let lacks = left_side(self.terms_of(e), number) - wanted;
+        lacks.map(|part| part.hi.into())
     }
 
     /// The Jacobian at the point arrived at.
     fn fill(&mut self) {
-        let n = self.n;
         self.matrix.clear();
-        for e in 0..n {
-            for term in &self.terms[self.first[e]..self.first[e + 1]] {
-                for (unknown, sign, other) in term.derivatives(|i| self.there[i]) {
-                    let slope = other.times(term.factor.into());
-                    if unknown < n {
-                        let slope = if sign > 0 { slope } else { -slope };
+        for e in 0..self.n {
+            let terms = &self.terms[self.first[e]..self.first[e + 1]];
+            slopes(
+                terms,
+                |i| self.there[i],
+                |unknown, slope| {
+                    if unknown < self.n {
                         self.matrix.add(e, unknown, slope);
                     }
-                }
-            }
+                },
+            );
         }
     }
 }

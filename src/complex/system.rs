@@ -172,13 +172,8 @@ impl System {
     pub(super) fn evaluate(&self, equation: usize, at: &[Exact]) -> Exact {
         let at = |entry: Option<usize>| entry.map_or_else(Exact::zero, |i| at[i].clone());
         let terms = self.equations[equation].terms.iter();
-        let form = |form: Form<Option<usize>>| match form.map(at) {
-            Form::One => Exact::whole(1),
-            Form::Difference(a, b) => a.minus(&b),
-        };
         terms.fold(Exact::zero(), |sum, term| {
-            let product = form(term.left).times(&form(term.right));
-            sum.plus(&product.times(&Exact::whole(term.factor.into())))
+            sum + term.value(at) * Exact::whole(term.factor.into())
         })
     }
 

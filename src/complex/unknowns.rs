@@ -4,7 +4,7 @@ use super::boxes::{SolutionBox, SolutionSet};
 use super::certify::numbers;
 use super::lines;
 use super::system::System;
-use super::vector::{Z, cross, dot, plus};
+use super::vector::{Z, cross, dot, minus, plus};
 use crate::interval::DoubleDouble;
 use crate::places::Each as _;
 use crate::problem::Problem;
@@ -37,13 +37,9 @@ pub fn of(
     Some(boxes.map(of_box).collect())
 }
 
-fn minus(a: [Z; 3], b: [Z; 3]) -> [Z; 3] {
-    plus(&a, Z::real(-1.0), &b)
-}
-
 /// A vector divided by its length.
 fn unit(a: [Z; 3]) -> Option<[Z; 3]> {
-    let square = dot(&a, &a);
+    let square = dot(a, a);
     let over = square.sqrt().inverse();
     (square.norm_sqr() > 1e-20).then(|| a.each(|x| x * over))
 }
@@ -63,9 +59,9 @@ fn in_gauge(
     let points: Vec<[Z; 3]> = points.iter().map(|p| p.each(|x| x.times(scale))).collect();
     let first = unit(minus(points[b], points[a]))?;
     let across = minus(points[c], points[a]);
-    let second = unit(plus(&across, -dot(&across, &first), &first))?;
-    let axes = [first, second, cross(&first, &second)];
-    let turned = |v: [Z; 3]| axes.each(|axis| dot(&axis, &v));
+    let second = unit(plus(&across, -dot(across, first), &first))?;
+    let axes = [first, second, cross(first, second)];
+    let turned = |v: [Z; 3]| axes.each(|axis| dot(axis, v));
     let m = homotopy.equations;
     let mut known: Vec<Option<Z>> = vec![None; m];
     for (p, &at) in points.iter().enumerate() {
@@ -80,7 +76,7 @@ fn in_gauge(
         let base = turned(minus(base.each(|x| x.times(scale)), points[a]));
         let along = turned(along);
         // The place nearest to the origin, and a direction as long as in the sketch.
-        let base = plus(&base, -dot(&base, &along), &along);
+        let base = plus(&base, -dot(base, along), &along);
         let length = lines::length(problem, object)?;
         let unknowns = homotopy.object_unknowns(object);
         for (unknown, x) in unknowns.zip(base.into_iter().chain(along.each(|x| x.times(length)))) {

@@ -3,6 +3,7 @@
 use super::lowering::{Fault, Lowered};
 use super::quadratic::{Entry, Form, Product};
 use super::{Owner, frame::Frame, frame::vector, try_lower};
+use crate::equations::{left_side, slopes};
 use crate::interval::Real;
 use crate::places::Each as _;
 use crate::problem::{Problem, Target};
@@ -102,11 +103,7 @@ impl<'a> Floats<'a> {
             .map(|axis| {
                 let [from, to] = [a, b].each(|point| Entry::Coordinate { point, axis });
                 let form = Form::Difference(from, to);
-                Product {
-                    factor: 1,
-                    left: form,
-                    right: form,
-                }
+                Product::new(1, form, form)
             })
             .collect()
     }
@@ -133,23 +130,17 @@ impl<'a> Floats<'a> {
 
     /// The left-hand side of an equation.
     pub fn left(&self, equation: usize, x: &[f64]) -> f64 {
-        let products = self.products(equation);
-        let terms = products
-            .iter()
-            .map(|p| f64::from(p.factor) * p.value(self.at(x)));
-        0.5 * terms.sum::<f64>()
+        left_side(&self.products(equation), self.at(x))
     }
 
     /// The derivatives of an equation's left-hand side by all values, those that are fixed among them.
     pub fn row(&self, equation: usize, x: &[f64]) -> Vec<f64> {
         let mut row = vec![0.0; x.len()];
-        for p in self.products(equation) {
-            for (entry, sign, other) in p.derivatives(self.at(x)) {
-                if let Some(k) = self.place(entry) {
-                    row[k] += 0.5 * f64::from(sign * p.factor) * other;
-                }
+        slopes(&self.products(equation), self.at(x), |entry, slope| {
+            if let Some(k) = self.place(entry) {
+                row[k] += slope;
             }
-        }
+        });
         row
     }
 }

@@ -4,6 +4,7 @@
 use super::floats::Floats;
 use super::frame::Frame;
 use super::quadratic::{Entry, Form};
+pub use crate::interval::vector::{cross, dot, length as size};
 use crate::interval::{Interval, point};
 use crate::places::{Each as _, array};
 use crate::problem::Problem;
@@ -46,22 +47,6 @@ impl Figure {
     pub fn normal(&self, a: &str, b: &str, c: &str) -> [f64; 3] {
         cross(self.arrow(a, b), self.arrow(a, c))
     }
-}
-
-pub fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    (0..3).map(|k| a[k] * b[k]).sum()
-}
-
-pub fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
-}
-
-pub fn size(a: [f64; 3]) -> f64 {
-    dot(a, a).sqrt()
 }
 
 /// The angle between two vectors in degrees.

@@ -3,8 +3,8 @@
 use super::setting::Setting;
 use super::{Edited, Ending, Keep, Session};
 use crate::interval::Interval;
+use crate::interval::vector::{dot, length, minus};
 use crate::order::InOrder;
-use crate::places::Each as _;
 use crate::problem::{Decimal, Item, Problem, Shape};
 use crate::track::{Control, Options};
 use std::slice;
@@ -91,29 +91,24 @@ fn meet(a: Interval, b: Interval) -> bool {
 /// A setting to what a dimension is in the sketch, to seven digits; `None`: it is of another kind than those named above, or
 /// no dimension can be that.
 fn drawn(problem: &Problem, index: usize) -> Option<Setting> {
-    let at = |p: usize| problem.points[p].sketch.each_ref().each(Decimal::to_f64);
-    let between = |a: usize, b: usize| {
-        let (a, b) = (at(a), at(b));
-        [0, 1, 2].each(|k| b[k] - a[k])
-    };
-    let size = |v: [f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let places = problem.places();
+    let between = |a: usize, b: usize| minus(places[b], places[a]);
     let value = match index.checked_sub(problem.distances.len()) {
         None => {
             let [a, b] = problem.distances[index].points;
-            size(between(a, b))
+            length(between(a, b))
         }
         Some(c) => {
             let constraint = &problem.constraints[c];
             match (constraint.kind.as_str(), constraint.items.as_slice()) {
                 ("angles", &[Item::Point(a), Item::Point(b), Item::Point(c)]) => {
                     let (u, v) = (between(b, a), between(b, c));
-                    let product: f64 = (0..3).map(|k| u[k] * v[k]).sum();
-                    (product / (size(u) * size(v))).acos().to_degrees()
+                    (dot(u, v) / (length(u) * length(v))).acos().to_degrees()
                 }
                 (kind @ ("radii" | "diameters"), &[Item::Object(object)]) => {
                     let radius = match &problem.objects[object].shape {
                         Shape::Round { radius, .. } => radius.to_f64(),
-                        &Shape::Arc { center, start, .. } => size(between(center, start)),
+                        &Shape::Arc { center, start, .. } => length(between(center, start)),
                         _ => return None,
                     };
                     if kind == "radii" {
@@ -122,7 +117,7 @@ fn drawn(problem: &Problem, index: usize) -> Option<Setting> {
                         2.0 * radius
                     }
                 }
-                ("x" | "y" | "z", &[Item::Point(p)]) => at(p)[axis(&constraint.kind)],
+                ("x" | "y" | "z", &[Item::Point(p)]) => places[p][axis(&constraint.kind)],
                 ("dx" | "dy" | "dz", &[Item::Point(a), Item::Point(b)]) => {
                     between(a, b)[axis(&constraint.kind)]
                 }

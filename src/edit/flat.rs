@@ -1,6 +1,7 @@
 //! What is special about the figure at a limit: points on one line or in one plane.
 
 use super::ending::Limit;
+use crate::interval::vector::length;
 use crate::interval::{Interval, point};
 use crate::places::{Each as _, array};
 use crate::track::arc::Orientation;
@@ -24,8 +25,11 @@ impl Limit {
                 flat_within = flat_within.max(sine);
             }
         }
-        let size = |v: &[f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
-        let largest = motion.iter().map(size).fold(f64::MIN_POSITIVE, f64::max);
+        let largest = motion
+            .iter()
+            .copied()
+            .map(length)
+            .fold(f64::MIN_POSITIVE, f64::max);
         for v in &mut motion {
             *v = v.each(|x| x / largest);
         }

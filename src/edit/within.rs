@@ -167,11 +167,7 @@ impl Within {
 
     fn at(&self, p: usize, unknown: impl Fn(usize) -> Interval) -> [Interval; 3] {
         let homotopy = self.homotopy();
-        let unit = point(homotopy.unit);
-        crate::places::array(|axis| {
-            let known = homotopy.coordinate(p, axis).map(&unknown);
-            known.map_or(point(0.0), |x| x * unit)
-        })
+        homotopy.place(p, |i| unknown(i) * point(homotopy.unit))
     }
 
     /// Boxes of all points of all figures, in the coordinates of the problem.

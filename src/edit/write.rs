@@ -355,11 +355,7 @@ mod tests {
                     [constraints]\nfixed = [\"a\"]\nhorizontal = [\"l\"]\n\
                     distances = [[\"a\", \"b\", 4], [\"a\", \"c\", 2]]\nangles = [[\"l\", \"a\", \"c\", 60]]\n";
         let mut problem = Problem::parse_loosely(file, "angle.toml").unwrap();
-        let places = problem
-            .points
-            .iter()
-            .map(|p| p.sketch.each_ref().each(Decimal::to_f64));
-        let places: Vec<[f64; 3]> = places.collect();
+        let places = problem.places();
         let at = problem.constraints.iter().position(|c| c.kind == "angles");
         let mut written = |degrees: &str| {
             problem.constraints[at.unwrap()].value = Some(degrees.parse().unwrap());

@@ -6,6 +6,7 @@
 //! constraint is not used by any step. All lengths are read off a figure; the two places where spheres and planes
 //! meet are the branches.
 
+use crate::interval::vector::{cross, dot, minus};
 use crate::order::InOrder;
 use crate::places::{Each as _, array};
 use crate::problem::{Item, Problem};
@@ -265,23 +266,8 @@ impl Walk<'_> {
 
 type V = [f64; 3];
 
-fn minus(a: V, b: V) -> V {
-    array(|k| a[k] - b[k])
-}
-
 fn along(a: V, s: f64, d: V) -> V {
     array(|k| a[k] + s * d[k])
-}
-
-fn dot(a: V, b: V) -> f64 {
-    (0..3).map(|k| a[k] * b[k]).sum()
-}
-
-fn cross(a: V, b: V) -> V {
-    array(|k| {
-        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-        a[i] * b[j] - a[j] * b[i]
-    })
 }
 
 /// The linear equations n·(p − c) = h that follow for a step's point, c being the centre of its first sphere.
@@ -351,19 +337,12 @@ fn side(dimension: usize, step: &Step, figure: &[V]) -> bool {
 mod tests {
     use super::*;
 
-    fn figure_of(problem: &Problem) -> Vec<V> {
-        let points = problem.points.iter();
-        points
-            .map(|p| p.sketch.each_ref().each(|x| x.to_f64()))
-            .collect()
-    }
-
     /// Every branch keeps all lengths and planes that the plan uses, and no two are the same.
     #[test]
     fn branches_keep_what_the_plan_uses() {
         for (name, added) in [("octahedron", 1), ("disulfide", 1), ("dodecagon", 2)] {
             let problem = Problem::read(format!("problems/{name}.toml")).unwrap();
-            let figure = figure_of(&problem);
+            let figure = problem.places();
             let plans = Construction::some(&problem, 8);
             assert_eq!(plans[0].added, added, "{name}");
             let mut seen = 0;

@@ -2,6 +2,7 @@
 
 use super::record::{BoxRecord, End, Met, PathRecord, Sketch, bounds};
 use super::way::{Way, is_usable};
+use crate::interval::vector::distance;
 use crate::places::Each as _;
 use crate::problem::Problem;
 use crate::system::Homotopy;
@@ -58,11 +59,8 @@ pub struct Job {
 
 /// The lengths of all distances of a problem's sketch, in floats.
 pub fn lengths_of(problem: &Problem) -> Vec<f64> {
-    let place = |p: usize| problem.points[p].sketch.each_ref().each(|x| x.to_f64());
-    let length = |[a, b]: [usize; 2]| {
-        let (a, b) = (place(a), place(b));
-        (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>().sqrt()
-    };
+    let places = problem.places();
+    let length = |[a, b]: [usize; 2]| distance(places[a], places[b]);
     problem.distances.iter().map(|d| length(d.points)).collect()
 }
 

@@ -167,7 +167,7 @@ impl Explorer {
         (number, from): (usize, Option<(u64, u64)>),
         figure: Option<Vec<[f64; 3]>>,
     ) {
-        let places = figure.clone().unwrap_or_else(|| self.own_sketch());
+        let places = figure.clone().unwrap_or_else(|| self.problem.places());
         let look = look(&places, self.base.unit);
         let group = self.group(number);
         let known = &self.contents.sketches;
@@ -200,13 +200,6 @@ impl Explorer {
         self.queue.insert(id);
         self.enter_look(id);
         change.sketches.push(sketch);
-    }
-
-    fn own_sketch(&self) -> Vec<[f64; 3]> {
-        let points = self.problem.points.iter();
-        points
-            .map(|p| p.sketch.each_ref().each(|x| x.to_f64()))
-            .collect()
     }
 
     /// Adds the sketches of a way that a solution gives.

@@ -1,7 +1,7 @@
 //! Ways: which plan makes sketches, which length bends, and by how much.
 
 use super::construction::Construction;
-use crate::places::Each as _;
+use crate::interval::vector::distance;
 use crate::problem::{Decimal, Distance, Problem};
 
 /// A way to make sketches from solutions and to follow them.
@@ -88,15 +88,8 @@ pub fn set_sketch(of: &mut Problem, places: &[[f64; 3]]) {
 /// Whether a path can set out from a sketch: joined points are apart, the reference is not in line, and the
 /// checks of files find nothing. In floats, as sketches are rough anyway.
 pub fn is_usable(of: &Problem) -> bool {
-    let places: Vec<[f64; 3]> = of
-        .points
-        .iter()
-        .map(|p| p.sketch.each_ref().each(|x| x.to_f64()))
-        .collect();
-    let length = |a: usize, b: usize| {
-        let squares = (0..3).map(|k| (places[a][k] - places[b][k]).powi(2));
-        squares.sum::<f64>().sqrt()
-    };
+    let places = of.places();
+    let length = |a: usize, b: usize| distance(places[a], places[b]);
     let typical = of
         .distances
         .iter()

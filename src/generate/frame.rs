@@ -1,5 +1,6 @@
 //! Chains of points and bars, and problems made of them.
 
+pub(super) use crate::interval::vector::{cross, distance, dot, minus};
 use crate::places::{Each as _, array};
 use crate::problem::Problem;
 use crate::random::Random;
@@ -89,27 +90,6 @@ pub(super) fn plus(a: V3, b: V3) -> V3 {
     array(|k| a[k] + b[k])
 }
 
-pub(super) fn minus(a: V3, b: V3) -> V3 {
-    array(|k| a[k] - b[k])
-}
-
 pub(super) fn times(s: f64, a: V3) -> V3 {
     a.each(|x| s * x)
-}
-
-pub(super) fn dot(a: V3, b: V3) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-pub(super) fn cross(a: V3, b: V3) -> V3 {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
-}
-
-pub(super) fn distance(a: V3, b: V3) -> f64 {
-    let u = minus(a, b);
-    dot(u, u).sqrt()
 }

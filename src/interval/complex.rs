@@ -2,7 +2,7 @@
 
 use super::DoubleDouble;
 use crate::elimination::Field;
-use crate::equations::Ring;
+use crate::equations::{Halved, Ring};
 use nalgebra::ComplexField;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -199,6 +199,12 @@ impl<N: Number> Div for Complex<N> {
 impl<N: Number> Ring for Complex<N> {
     fn whole(number: i32) -> Self {
         Complex::real(f64::from(number))
+    }
+}
+
+impl<N: Number> Halved for Complex<N> {
+    fn halves(self, count: i32) -> Self {
+        self.times((0.5 * f64::from(count)).into())
     }
 }
 

@@ -27,11 +27,24 @@ pub use inari::Interval;
 pub use portable::Interval;
 pub use real::{Ball, Real, root};
 
-use crate::equations::Ring;
+use crate::elimination::Field;
+use crate::equations::{Halved, Ring};
 
 impl Ring for Interval {
     fn whole(number: i32) -> Self {
         point(number.into())
+    }
+}
+
+impl Field for Interval {
+    fn size(&self) -> f64 {
+        self.mig()
+    }
+}
+
+impl Halved for Interval {
+    fn halves(self, count: i32) -> Self {
+        point(0.5 * f64::from(count)) * self
     }
 }
 

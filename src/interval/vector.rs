@@ -1,4 +1,4 @@
-//! Vectors of three intervals.
+//! Vectors of three numbers: intervals, floats, complex numbers.
 
 use super::Interval;
 use crate::places::Each as _;
@@ -24,6 +24,16 @@ pub fn cross<T: Copy + Sub<Output = T> + Mul<Output = T>>(a: [T; 3], b: [T; 3]) 
         a[2] * b[0] - a[0] * b[2],
         a[0] * b[1] - a[1] * b[0],
     ]
+}
+
+/// |v|.
+pub fn length(v: [f64; 3]) -> f64 {
+    dot(v, v).sqrt()
+}
+
+/// |a − b|.
+pub fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
+    length(minus(a, b))
 }
 
 /// v / |v|; `None` where v may be zero.

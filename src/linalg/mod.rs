@@ -17,7 +17,7 @@ mod span;
 pub(crate) use axes::with_axes;
 pub use inverse::{Inverter, Singular};
 pub use large::{LARGE, Workers};
-pub use least::{damped, nearest_zero};
+pub use least::{Linear, damped, linearised, nearest, nearest_zero, scaled};
 pub use matrix::{LANE, Matrix, Sparse, Vector};
 pub use rank::extreme_pivots;
 pub use span::Span;

@@ -46,6 +46,7 @@ pub use bounds::{Bounds, Extreme, Measured};
 use crate::blocks::Account;
 use crate::edit::{Round, Setting, WayEnd};
 use crate::interval::Interval;
+use crate::interval::vector::distance;
 use crate::order::InOrder;
 use crate::problem::{Decimal, Distance, Item, Point, Problem, Target, counted, list};
 use crate::system::Quantity;
@@ -279,7 +280,7 @@ pub(crate) fn lengths(problem: &Problem, quantities: &[Quantity]) -> Vec<[usize;
 /// A length as it is drawn.
 fn drawn(problem: &Problem, ends: [usize; 2]) -> f64 {
     let [a, b] = ends.map(|p| problem.points[p].sketch.each_ref().map(Decimal::to_f64));
-    (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>().sqrt()
+    distance(a, b)
 }
 
 /// A path that was followed.

@@ -73,6 +73,14 @@ where
 }
 
 impl Problem {
+    /// Where the sketch has its points, in floats.
+    pub fn places(&self) -> Vec<[f64; 3]> {
+        let points = self.points.iter();
+        points
+            .map(|p| p.sketch.each_ref().map(Decimal::to_f64))
+            .collect()
+    }
+
     /// A problem of distances with some of them, by index, and nothing else. `None`: it is not well constrained.
     pub fn with_distances(&self, mut is_kept: impl FnMut(usize) -> bool) -> Option<Problem> {
         let mut builder = Problem::build(&self.name, self.dimension).source(&self.source);

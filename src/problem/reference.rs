@@ -3,7 +3,8 @@
 use super::check::collinear;
 use super::{Distance, Object, Point, Problem, Shape};
 use crate::constraint::fix_frame;
-use crate::places::{Each as _, array};
+use crate::interval::vector::{cross, minus};
+use crate::places::Each as _;
 
 /// A body whose roundest triangle is thinner than this tells its plane badly: other points are taken then.
 const THIN: f64 = 0.1;
@@ -160,13 +161,7 @@ fn squared_length(a: [f64; 3], b: [f64; 3]) -> f64 {
 
 /// Twice the area over the square of the longest side: 0 for a flat triangle, √3/2 at most.
 fn roundness(a: [f64; 3], b: [f64; 3], c: [f64; 3]) -> f64 {
-    let u: [f64; 3] = array(|k| b[k] - a[k]);
-    let v: [f64; 3] = array(|k| c[k] - a[k]);
-    let normal = [
-        u[1] * v[2] - u[2] * v[1],
-        u[2] * v[0] - u[0] * v[2],
-        u[0] * v[1] - u[1] * v[0],
-    ];
+    let normal = cross(minus(b, a), minus(c, a));
     let longest = squared_length(a, b)
         .max(squared_length(b, c))
         .max(squared_length(c, a));

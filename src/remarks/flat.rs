@@ -1,7 +1,8 @@
 //! Where the sketch is singular because points are on one line or in one plane, exactly.
 
 use super::{Remark, joined, tetrahedra, triangles};
-use crate::places::{Each as _, array};
+use crate::interval::vector;
+use crate::places::Each as _;
 use crate::problem::{Object, Problem, Shape};
 use crate::system::Homotopy;
 use num_rational::BigRational;
@@ -124,20 +125,10 @@ pub(super) fn parts(problem: &Problem) -> Vec<Remark> {
 /// one line in space.
 fn flat_with(problem: &Problem, [middle, a, b]: [usize; 3]) -> Option<Vec<usize>> {
     let d = problem.dimension;
-    let places: Vec<[f64; 3]> = problem
-        .points
-        .iter()
-        .map(|p| p.sketch.each_ref().each(|x| x.to_f64()))
-        .collect();
-    let nearly = |p: usize| -> [f64; 3] { array(|k| places[p][k] - places[middle][k]) };
+    let places = problem.places();
+    let nearly = |p: usize| vector::minus(places[p], places[middle]);
     let (u, v) = (nearly(a), nearly(b));
-    let product = |u: [f64; 3], v: [f64; 3]| -> [f64; 3] {
-        array(|k| {
-            let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-            u[i] * v[j] - u[j] * v[i]
-        })
-    };
-    let size = |v: [f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let size = vector::length;
     let exact = [from(problem, middle, a), from(problem, middle, b)];
     let normal = match d {
         2 => None,
@@ -150,9 +141,9 @@ fn flat_with(problem: &Problem, [middle, a, b]: [usize; 3]) -> Option<Vec<usize>
         let w = nearly(p);
         // Most are far from it, which floats tell.
         let far = match d {
-            2 => size(product(u, w)) > NEAR * size(u) * size(w),
+            2 => size(vector::cross(u, w)) > NEAR * size(u) * size(w),
             _ => {
-                let n = product(u, v);
+                let n = vector::cross(u, v);
                 let along = n.iter().zip(w).map(|(a, b)| a * b).sum::<f64>();
                 along.abs() > NEAR * size(n) * size(w) && size(n) > NEAR * size(u) * size(v)
             }

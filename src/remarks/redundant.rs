@@ -7,12 +7,11 @@
 
 use super::Remark;
 use crate::constraint::try_lower;
-use crate::linalg::nearest_zero;
+use crate::linalg::{Linear, linearised, nearest_zero, scaled};
 use crate::problem::Problem;
 use crate::random::Random;
 use crate::system::Homotopy;
 use crate::track::flexible::Target;
-use nalgebra::{DMatrix, DVector};
 
 /// More unknowns are not looked at: it would take seconds.
 const MANY: usize = 250;
@@ -103,19 +102,10 @@ impl<'a> System<'a> {
     }
 
     /// The Jacobian of some equations, rows scaled to length 1, and their scaled values.
-    fn linearise(&self, rows: &[usize], x: &[f64]) -> (DMatrix<f64>, DVector<f64>) {
-        let mut jacobian = DMatrix::zeros(rows.len(), x.len());
-        let mut values = DVector::zeros(rows.len());
-        for (r, &equation) in rows.iter().enumerate() {
-            let target = &self.target;
-            values[r] = target.evaluate(equation, x, |i, d| jacobian[(r, i)] += d);
-            let size = jacobian.row(r).norm();
-            if size > 0.0 {
-                jacobian.row_mut(r).scale_mut(1.0 / size);
-                values[r] /= size;
-            }
-        }
-        (jacobian, values)
+    fn linearise(&self, rows: &[usize], x: &[f64]) -> Linear {
+        scaled(linearised((rows.len(), x.len()), |r, slope| {
+            self.target.evaluate(rows[r], x, slope)
+        }))
     }
 
     /// A figure near the sketch that meets all equations with zero on the right.

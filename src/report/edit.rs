@@ -8,6 +8,7 @@ use crate::edit::{
     Alone, Decomposition, Dimension, Drag, Dragged, Edited, Ending, Limit, Moved, Session,
 };
 use crate::interval::Interval;
+use crate::interval::vector::length;
 use crate::order::InOrder;
 use crate::problem::{Decimal, Problem, Shape, counted, list};
 use serde_json::{Map, Value, json};
@@ -214,8 +215,8 @@ fn dragged_in_words(problem: &Problem, edited: &Edited, dragged: &Dragged) -> St
 
 /// What is special about the figure at a limit.
 pub fn limit_in_words(problem: &Problem, limit: &Limit) -> String {
-    let size = |v: &[f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
-    let mut moving: Vec<(usize, f64)> = limit.motion.iter().map(size).enumerate().collect();
+    let sizes = limit.motion.iter().copied().map(length);
+    let mut moving: Vec<(usize, f64)> = sizes.enumerate().collect();
     moving.order_by(|a, b| b.1.total_cmp(&a.1));
     let moving: Vec<usize> = moving
         .iter()

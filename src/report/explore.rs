@@ -5,6 +5,7 @@ use super::drawing::Drawing;
 use super::json::{Points, WrittenFold, WrittenSample, written_folds, written_samples};
 use crate::explore::{Class, End, Explorer, Finish, PathRecord, intervals};
 use crate::interval::Interval;
+use crate::interval::vector::{cross, dot};
 use crate::places::{Each as _, array};
 use crate::problem::{Problem, Published, counted};
 use crate::track::{Outcome, Trace};
@@ -168,13 +169,6 @@ fn is_flat(problem: &Problem, class: &Class) -> bool {
         .map(|p| p.each(|[a, b]| 0.5 * (a + b)))
         .collect();
     let from = |p: usize| -> [f64; 3] { array(|k| places[p][k] - places[0][k]) };
-    let cross = |a: [f64; 3], b: [f64; 3]| -> [f64; 3] {
-        array(|k| {
-            let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-            a[i] * b[j] - a[j] * b[i]
-        })
-    };
-    let dot = |a: [f64; 3], b: [f64; 3]| (0..3).map(|k| a[k] * b[k]).sum::<f64>();
     let n = places.len();
     let size = (1..n)
         .map(|p| dot(from(p), from(p)))

@@ -2,7 +2,8 @@
 
 use super::{Beside, ExactLength, Gauge, GaugeError, Length, Right, Segment};
 use crate::constraint::{self, Entry, Equation, Role, Tail};
-use crate::equations::{Form, Product};
+use crate::equations::{Form, Product, Ring, left_side, slopes};
+use crate::interval::vector::distance;
 use crate::interval::{Interval, ZERO, enclose, enclose_rational, point};
 use crate::places::{Each as _, array};
 use crate::problem::{Distance, Problem, Shape, Target};
@@ -381,6 +382,12 @@ impl Homotopy {
             .filter(|&v| v < self.equations)
     }
 
+    /// The place of a point where unknowns have these values.
+    pub fn place<T: Ring>(&self, point: usize, at: impl Fn(usize) -> T) -> [T; 3] {
+        let coordinate = |axis| self.coordinate(point, axis);
+        std::array::from_fn(|axis| coordinate(axis).map_or_else(|| T::whole(0), &at))
+    }
+
     /// The points of the equations that have half the square of a distance on the left: of the distances, and of the
     /// constraints that come next to them and are of the same form.
     pub fn half_squares(&self) -> impl Iterator<Item = Edge> + '_ {
@@ -418,23 +425,16 @@ impl Homotopy {
     /// An enclosure of q_e, the left-hand side of an equation, where unknowns have these values.
     pub fn left_side(&self, equation: usize, at: impl Fn(usize) -> Interval) -> Interval {
         let at = |entry: Option<usize>| entry.map_or(ZERO, &at);
-        let terms = self.terms(equation).into_iter();
-        terms.fold(ZERO, |sum, term| {
-            sum + point(0.5 * f64::from(term.factor)) * term.value(at)
-        })
+        left_side(&self.terms(equation), at)
     }
 
     /// Enclosures of its derivatives by all unknowns.
     pub fn slopes(&self, equation: usize, at: impl Fn(usize) -> Interval) -> Vec<Interval> {
         let at = |entry: Option<usize>| entry.map_or(ZERO, &at);
         let mut out = vec![ZERO; self.equations];
-        for term in self.terms(equation) {
-            for (entry, sign, slope) in term.derivatives(at) {
-                if let Some(i) = entry {
-                    out[i] += point(0.5 * f64::from(sign * term.factor)) * slope;
-                }
-            }
-        }
+        slopes(&self.terms(equation), at, |entry, slope| {
+            entry.into_iter().for_each(|i| out[i] += slope);
+        });
         out
     }
 
@@ -558,15 +558,10 @@ impl Homotopy {
 /// distance of the sketch's points from their middle.
 pub(crate) fn typical_length(problem: &Problem) -> f64 {
     let mean = if problem.distances.is_empty() {
-        let places: Vec<[f64; 3]> = problem
-            .points
-            .iter()
-            .map(|p| p.sketch.each_ref().each(|x| x.to_f64()))
-            .collect();
+        let places = problem.places();
         let n = places.len().max(1) as f64;
         let middle: [f64; 3] = array(|k| places.iter().map(|p| p[k]).sum::<f64>() / n);
-        let away = |p: &[f64; 3]| -> f64 { (0..3).map(|k| (p[k] - middle[k]).powi(2)).sum() };
-        let mean = places.iter().map(|p| away(p).sqrt()).sum::<f64>() / n;
+        let mean = places.iter().map(|p| distance(*p, middle)).sum::<f64>() / n;
         if mean > 0.0 { mean } else { 1.0 }
     } else {
         let lengths = problem.distances.iter().map(|d| match &d.target {

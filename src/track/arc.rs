@@ -1,7 +1,6 @@
 //! What follows from an arc of path that sets out from a figure at t = 0 with t rising.
 
 use crate::interval::{Interval, hull, point};
-use crate::places::array;
 use crate::system::Homotopy;
 use crate::track::Stop;
 
@@ -37,16 +36,9 @@ impl Figure {
 
     /// All points of the figure in the gauge, in the homotopy's unit.
     pub fn points(&self, homotopy: &Homotopy) -> Vec<[Interval; 3]> {
-        let (d, m) = (homotopy.dimension, homotopy.equations);
-        let coordinate = |p: usize, axis: usize| -> Interval {
-            match homotopy.gauge.variable.get(p * d + axis) {
-                Some(&i) if axis < d && i < m => self.enclosure(i),
-                _ => point(0.0),
-            }
-        };
-        (0..homotopy.points)
-            .map(|p| array(|axis| coordinate(p, axis)))
-            .collect()
+        let points = 0..homotopy.points;
+        let unknown = |i: usize| self.enclosure(i);
+        points.map(|p| homotopy.place(p, unknown)).collect()
     }
 }
 

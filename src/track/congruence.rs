@@ -2,7 +2,8 @@
 
 use super::Solution;
 use crate::interval::point;
-use crate::places::{Each as _, array};
+use crate::interval::vector::{cross, dot, minus};
+use crate::places::Each as _;
 
 /// What a float run found, as solutions: thin boxes, with their classes of congruence.
 pub fn observed_solutions(figures: Vec<Vec<[f64; 3]>>, tolerance: f64) -> Vec<Solution> {
@@ -36,15 +37,6 @@ pub fn observed_solutions(figures: Vec<Vec<[f64; 3]>>, tolerance: f64) -> Vec<So
 /// the sign of the area (in the plane, where all third coordinates are zero) or of the volume that is
 /// largest among those spanned by the first point, the one furthest from it, and others.
 fn is_mirrored(one: &[[f64; 3]], other: &[[f64; 3]]) -> bool {
-    let minus = |a: [f64; 3], b: [f64; 3]| -> [f64; 3] { array(|k| a[k] - b[k]) };
-    let cross = |a: [f64; 3], b: [f64; 3]| {
-        [
-            a[1] * b[2] - a[2] * b[1],
-            a[2] * b[0] - a[0] * b[2],
-            a[0] * b[1] - a[1] * b[0],
-        ]
-    };
-    let dot = |a: [f64; 3], b: [f64; 3]| (0..3).map(|k| a[k] * b[k]).sum::<f64>();
     let greatest = |value: &dyn Fn(usize) -> f64| {
         (0..one.len()).max_by(|&i, &j| value(i).abs().total_cmp(&value(j).abs()))
     };

@@ -1,6 +1,7 @@
 //! Where a path that does not come back to the sketch ends.
 
 use crate::constraint::Tail;
+use crate::interval::vector::{cross, length, minus};
 use crate::places::{Each as _, array};
 use crate::problem::{Item, Problem, Shape};
 use crate::system::Homotopy;
@@ -108,8 +109,8 @@ fn parallel_legs(problem: &Problem, figure: &[[f64; 3]]) -> Vec<String> {
         let leg = |end: usize| -> [f64; 3] { array(|k| figure[end][k] - figure[b][k]) };
         let (u, v) = (leg(a), leg(c));
         // Legs that vanish have no direction.
-        let sine = size(cross(u, v)) / (size(u) * size(v));
-        if sine < LEGS && size(u).min(size(v)) > NEARLY * size(u).max(size(v)) {
+        let sine = length(cross(u, v)) / (length(u) * length(v));
+        if sine < LEGS && length(u).min(length(v)) > NEARLY * length(u).max(length(v)) {
             let [a, b, c] = [a, b, c].each(|p| problem.points[p].name.as_str());
             remarks.push(format!(
                 "the legs of the angle at {b} between {a} and {c} become parallel"
@@ -122,12 +123,8 @@ fn parallel_legs(problem: &Problem, figure: &[[f64; 3]]) -> Vec<String> {
 /// Lines that have become parallel and are clearly not so in the sketch. The direction of a line of its own is that between
 /// two points that are said to be on it; without two it is not looked at.
 fn parallel_lines(problem: &Problem, figure: &[[f64; 3]]) -> Vec<String> {
-    let sketch: Vec<[f64; 3]> = (problem.points.iter())
-        .map(|point| point.sketch.each_ref().each(|x| x.to_f64()))
-        .collect();
-    let between = |figure: &[[f64; 3]], a: usize, b: usize| -> [f64; 3] {
-        array(|k| figure[b][k] - figure[a][k])
-    };
+    let sketch = problem.places();
+    let between = |figure: &[[f64; 3]], a: usize, b: usize| minus(figure[b], figure[a]);
     let lines = problem.objects.iter().enumerate();
     let lines = lines.filter_map(|(index, object)| match &object.shape {
         &Shape::Line([a, b]) => {
@@ -139,7 +136,7 @@ fn parallel_lines(problem: &Problem, figure: &[[f64; 3]]) -> Vec<String> {
             let pairs = on_it.iter().enumerate();
             let pairs = pairs.flat_map(|(k, &a)| on_it[..k].iter().map(move |&b| (a, b)));
             let apart = pairs.map(|(a, b)| between(figure, a, b));
-            let longest = apart.max_by(|u, v| size(*u).total_cmp(&size(*v)))?;
+            let longest = apart.max_by(|u, v| length(*u).total_cmp(&length(*v)))?;
             let before = direction.each_ref().each(|x| x.to_f64());
             Some((object.name.as_str(), [before, longest]))
         }
@@ -152,7 +149,7 @@ fn parallel_lines(problem: &Problem, figure: &[[f64; 3]]) -> Vec<String> {
             // Not a number where a direction vanishes.
             let [before, now] = [0, 1].each(|at| {
                 let (u, v) = (of_one[at], of_other[at]);
-                size(cross(u, v)) / (size(u) * size(v))
+                length(cross(u, v)) / (length(u) * length(v))
             });
             if before > LEGS && now < NEARLY {
                 remarks.push(format!("the lines {other} and {one} become parallel"));
@@ -170,10 +167,6 @@ fn points_on(problem: &Problem, object: usize) -> Vec<usize> {
         _ => None,
     });
     points.collect()
-}
-
-fn size(x: [f64; 3]) -> f64 {
-    x.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
 fn parallel_planes(problem: &Problem, figure: &[[f64; 3]]) -> Vec<String> {
@@ -200,7 +193,7 @@ fn parallel_planes(problem: &Problem, figure: &[[f64; 3]]) -> Vec<String> {
     let mut remarks = Vec::new();
     for (k, (one, u)) in planes.iter().enumerate() {
         for (other, v) in &planes[..k] {
-            if size(cross(*u, *v)) < NEARLY {
+            if length(cross(*u, *v)) < NEARLY {
                 remarks.push(format!("the planes ({other}) and ({one}) become parallel"));
             }
         }
@@ -211,25 +204,18 @@ fn parallel_planes(problem: &Problem, figure: &[[f64; 3]]) -> Vec<String> {
 /// The unit normal of the widest triangle of some points.
 fn normal(figure: &[[f64; 3]], points: &[usize]) -> Option<[f64; 3]> {
     let (&first, rest) = points.split_first()?;
-    let from = |p: usize| -> [f64; 3] { array(|k| figure[p][k] - figure[first][k]) };
+    let from = |p: usize| minus(figure[p], figure[first]);
     let mut best = ([0.0; 3], 0.0f64);
     for (k, &a) in rest.iter().enumerate() {
         for &b in &rest[..k] {
             let n = cross(from(a), from(b));
-            let size = n.iter().map(|x| x * x).sum::<f64>().sqrt();
+            let size = length(n);
             if size > best.1 {
                 best = (n, size);
             }
         }
     }
     (best.1 > 0.0).then(|| best.0.each(|x| x / best.1))
-}
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    array(|k| {
-        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-        a[i] * b[j] - a[j] * b[i]
-    })
 }
 
 /// The point with the largest coordinate, and that. `z` are all unknowns.
@@ -247,11 +233,7 @@ pub fn size_of(homotopy: &Homotopy, figure: &[f64]) -> f64 {
 
 /// The places of all points, in the problem's unit.
 pub fn places(homotopy: &Homotopy, z: &[f64]) -> Vec<[f64; 3]> {
-    let coordinate = |p: usize, axis: usize| {
-        let at = homotopy.coordinate(p, axis);
-        at.map_or(0.0, |i| z[i] * homotopy.unit)
-    };
-    let place = |p: usize| array(|axis| coordinate(p, axis));
+    let place = |p: usize| homotopy.place(p, |i| z[i] * homotopy.unit);
     (0..homotopy.points).map(place).collect()
 }
 

@@ -2,11 +2,11 @@
 //!
 //! Seen in floats, and said so: nothing of a proof rests on it.
 
-use crate::constraint::Role;
-use crate::linalg::damped;
+use crate::equations::{left_side, slopes};
+use crate::linalg::{Linear, linearised, nearest};
 use crate::problem::list;
 use crate::system::{Homotopy, Term};
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 
 /// A run that stops further from t = 1 than this stops for another reason.
 const NEAR: f64 = 1e-2;
@@ -30,11 +30,12 @@ pub fn in_words(homotopy: &Homotopy, z: &[f64], t: f64) -> Option<String> {
     }
     let target = Target::new(homotopy);
     let size = z[..m].iter().fold(1.0, |max: f64, x| max.max(x.abs()));
-    let x = target.nearest(DVector::from_column_slice(&z[..m]), size)?;
-    if !target.is_met(&x, size) || !is_proper(homotopy, &x) {
+    let x = target.nearest(DVector::from_column_slice(&z[..m]), size);
+    let are_positive = homotopy.positive_unknowns().iter().all(|&i| x[i] > 1e-6);
+    if target.off(&x) >= MET.sqrt() * size * size || !are_positive {
         return None;
     }
-    let decomposed = target.jacobian(&x).svd(false, true);
+    let decomposed = target.linearise(x.as_slice()).0.svd(false, true);
     let largest = decomposed.singular_values.max();
     let rows = decomposed.v_t?;
     let small = |k: &usize| decomposed.singular_values[*k] < RANK * largest;
@@ -60,14 +61,6 @@ pub fn in_words(homotopy: &Homotopy, z: &[f64], t: f64) -> Option<String> {
             ),
         } + " (seen in floats)",
     )
-}
-
-/// Lengths are positive there, and no vector vanishes that must not.
-fn is_proper(homotopy: &Homotopy, x: &DVector<f64>) -> bool {
-    let first = homotopy.gauge.place.len();
-    let unknowns = homotopy.tail.unknowns.iter().enumerate();
-    let mut lengths = unknowns.filter(|(_, unknown)| unknown.role == Role::Positive);
-    lengths.all(|(k, _)| x[first + k] > 1e-6)
 }
 
 /// The points that move most, or of a problem without points the unknowns; those first that move by more.
@@ -119,72 +112,34 @@ impl Target {
     /// The left-hand side of an equation, and its derivatives one by one.
     pub fn evaluate(&self, e: usize, x: &[f64], mut slope: impl FnMut(usize, f64)) -> f64 {
         let at = |entry: Option<usize>| entry.map_or(0.0, |i| x[i]);
-        let mut sum = 0.0;
-        for term in &self.terms[e] {
-            let half = 0.5 * f64::from(term.factor);
-            sum += half * term.value(at);
-            for (entry, sign, other) in term.derivatives(at) {
-                if let Some(i) = entry {
-                    slope(i, f64::from(sign) * half * other);
-                }
-            }
-        }
-        sum
+        slopes(&self.terms[e], at, |entry, by| {
+            entry.into_iter().for_each(|i| slope(i, by));
+        });
+        left_side(&self.terms[e], at)
     }
 
-    fn residual(&self, x: &DVector<f64>) -> DVector<f64> {
-        let left = |e: usize| self.evaluate(e, x.as_slice(), |_, _| ());
-        DVector::from_fn(self.m, |e, _| left(e) - self.rights[e])
+    fn linearise(&self, x: &[f64]) -> Linear {
+        linearised((self.m, self.m), |e, slope| {
+            self.evaluate(e, x, slope) - self.rights[e]
+        })
     }
 
-    fn jacobian(&self, x: &DVector<f64>) -> DMatrix<f64> {
-        let mut out = DMatrix::zeros(self.m, self.m);
-        for e in 0..self.m {
-            self.evaluate(e, x.as_slice(), |i, slope| out[(e, i)] += slope);
-        }
-        out
-    }
-
-    fn is_met(&self, x: &DVector<f64>, size: f64) -> bool {
-        self.residual(x).amax() < MET.sqrt() * size * size
+    /// By how much the equations are not met at most.
+    fn off(&self, x: &DVector<f64>) -> f64 {
+        self.linearise(x.as_slice()).1.amax()
     }
 
     /// A zero near a point, as far as the method of Levenberg and Marquardt comes.
-    fn nearest(&self, mut x: DVector<f64>, size: f64) -> Option<DVector<f64>> {
-        const STEPS: usize = 60;
-        let mut damping = 1e-3;
-        let mut f = self.residual(&x);
-        for _ in 0..STEPS {
-            if f.amax() < MET * size * size {
-                break;
-            }
-            let j = self.jacobian(&x);
-            let normal = damped(&j, damping * size * size)?;
-            let step = normal.solve(&j.tr_mul(&f));
-            let next = &x - step;
-            let there = self.residual(&next);
-            if there.norm() < f.norm() {
-                (x, f) = (next, there);
-                damping = f64::max(damping * 0.1, 1e-14);
-            } else {
-                damping *= 10.0;
-                if damping > 1e6 {
-                    break;
-                }
-            }
-        }
-        x.iter().all(|x| x.is_finite()).then_some(x)
+    fn nearest(&self, x: DVector<f64>, size: f64) -> DVector<f64> {
+        nearest(x, [MET * size * size, size], |x| self.linearise(x))
     }
 
     /// Whether there is another figure with the same dimensions in this direction, or the opposite one.
     fn moves(&self, x: &DVector<f64>, v: &DVector<f64>, size: f64) -> bool {
         let step = AWAY * size / v.amax();
         [step, -step].into_iter().any(|step| {
-            let from = x + v * step;
-            self.nearest(from, size).is_some_and(|y| {
-                let is_zero = self.residual(&y).amax() < 10.0 * MET * size * size;
-                is_zero && (y - x).amax() > 0.25 * AWAY * size
-            })
+            let y = self.nearest(x + v * step, size);
+            self.off(&y) < 10.0 * MET * size * size && (y - x).amax() > 0.25 * AWAY * size
         })
     }
 }

@@ -91,15 +91,10 @@ pub(super) fn parts_of(cut: &Cut, is_fixed: &[bool]) -> Vec<Part> {
 }
 
 fn side(form: Form<Option<usize>>, values: &[Option<Number>]) -> Number {
-    let value = |entry: Option<usize>| match entry {
+    form.value(|entry| match entry {
         Some(u) => values[u].clone().expect("all numbers are known"),
         None => Number::halves(0),
-    };
-    match form {
-        Form::One => Number::halves(2),
-        Form::Difference(a, b) if a == b => Number::halves(0),
-        Form::Difference(a, b) => value(a).minus(&value(b)),
-    }
+    })
 }
 
 /// Whether a vector that must not vanish does so in a figure; `None` if that is not certain.

@@ -10,6 +10,7 @@
 use super::contract::{Empty, entire};
 use super::expanded::Expanded;
 use super::newton::Square;
+use crate::elimination::clear;
 use crate::interval::{Interval, ZERO, checked, point};
 
 /// Ranges of the unknowns of a block, in order, that hold all of its zeros; [`Empty`] where linear equations contradict each other.
@@ -26,31 +27,19 @@ pub fn bounds(square: &Square, x: &[Interval]) -> Result<Vec<Interval>, Empty> {
     let mut pivots: Vec<Option<usize>> = vec![None; linear.len()];
     for k in 0..linear.len() {
         let left = (0..n).filter(|&c| !pivots.contains(&Some(c)));
-        let best = left.max_by(|&a, &b| {
-            let size = |c: usize| linear[k].linear[c].mig();
-            size(a).total_cmp(&size(b))
-        });
-        let pivot = linear[k].clone();
-        let Some(best) = best.filter(|&c| pivot.linear[c].mig() > 0.0) else {
+        let size = |c: usize| linear[k][c].mig();
+        let best = left.max_by(|&a, &b| size(a).total_cmp(&size(b)));
+        match best.filter(|&c| size(c) > 0.0) {
+            Some(best) => {
+                clear(&mut linear, k, best);
+                pivots[k] = Some(best);
+            }
             // No unknown is left in it.
-            let is_number = pivot.linear.iter().all(|b| *b == ZERO);
-            if is_number && !pivot.constant.contains(0.0) {
+            None if linear[k][..n].iter().all(|b| *b == ZERO) && !linear[k][n].contains(0.0) => {
                 return Err(Empty);
             }
-            continue;
-        };
-        for (j, row) in linear.iter_mut().enumerate() {
-            if j == k || row.linear[best] == ZERO {
-                continue;
-            }
-            let factor = row.linear[best] / pivot.linear[best];
-            for c in 0..n {
-                row.linear[c] -= factor * pivot.linear[c];
-            }
-            row.linear[best] = ZERO;
-            row.constant -= factor * pivot.constant;
+            None => {}
         }
-        pivots[k] = Some(best);
     }
     let mut free = (0..n).filter(|&c| !pivots.contains(&Some(c)));
     let t = free.next();
@@ -61,14 +50,13 @@ pub fn bounds(square: &Square, x: &[Interval]) -> Result<Vec<Interval>, Empty> {
             return Some((ZERO, point(1.0)));
         };
         let row = &linear[k];
-        let others = (0..n).filter(|&c| c != i && row.linear[c] != ZERO);
-        let by = row.linear[i];
+        let others = (0..n).filter(|&c| c != i && row[c] != ZERO);
         let slope = match t {
-            Some(t) if is_line => -(row.linear[t] / by),
+            Some(t) if is_line => -(row[t] / row[i]),
             _ if others.count() == 0 => ZERO,
             _ => return None,
         };
-        Some((-(row.constant / by), slope))
+        Some((-(row[n] / row[i]), slope))
     };
     let lines: Vec<Option<(Interval, Interval)>> = (0..n).map(line).collect();
     let whole: Option<Vec<(Interval, Interval)>> = lines.iter().copied().collect();
@@ -89,9 +77,9 @@ pub fn bounds(square: &Square, x: &[Interval]) -> Result<Vec<Interval>, Empty> {
     Ok(lines.iter().map(range_of).collect())
 }
 
-/// The linear equations that come of rows by adding whole multiples of others.
-fn without_products(rows: &[Expanded]) -> Option<Vec<Expanded>> {
-    let mut linear: Vec<Expanded> = Vec::new();
+/// The linear equations that come of rows by adding whole multiples of others: factors, and what is added.
+fn without_products(rows: &[Expanded]) -> Option<Vec<Vec<Interval>>> {
+    let mut linear: Vec<Vec<Interval>> = Vec::new();
     let mut curved: Vec<Expanded> = Vec::new();
     for mut row in rows.iter().cloned() {
         for pivot in &curved {
@@ -103,7 +91,7 @@ fn without_products(rows: &[Expanded]) -> Option<Vec<Expanded>> {
             }
         }
         match row.quadratic.is_empty() {
-            true => linear.push(row),
+            true => linear.push([row.linear, vec![row.constant]].concat()),
             false => curved.push(row),
         }
     }

@@ -2,7 +2,6 @@
 
 use super::newton::{KNOWN, Square};
 use super::system::{Form, Product, Row};
-use crate::equations::Ring;
 use crate::interval::{Interval, ZERO, point};
 use std::collections::BTreeMap;
 
@@ -29,40 +28,25 @@ impl Expanded {
             linear: vec![ZERO; n],
             constant: -row.right,
         };
-        let side = |form: Form| -> (Vec<(usize, i64)>, Interval) {
-            let mut unknowns = Vec::new();
-            let mut constant = match form {
-                Form::One => point(1.0),
-                Form::Difference(..) => ZERO,
-            };
-            for (entry, sign) in form.entries() {
-                match square.place[entry] {
-                    KNOWN => constant += Interval::whole(sign) * x[entry],
-                    k => unknowns.push((k, sign.into())),
-                }
-            }
-            (unknowns, constant)
+        let of = |entry: usize| match square.place[entry] {
+            KNOWN => Err(x[entry]),
+            k => Ok(k),
         };
         for p in &row.products {
             let quarters = 4.0 * p.factor.mid();
-            let (left, right) = (side(p.left), side(p.right));
+            let parts = p.expand(of);
             let is_whole =
                 p.factor.wid() == 0.0 && quarters == quarters.round() && quarters.abs() <= 1e6;
-            if !is_whole && !left.0.is_empty() && !right.0.is_empty() {
+            if !is_whole && !parts.products.is_empty() {
                 return None;
             }
-            for &(i, f) in &left.0 {
-                for &(j, g) in &right.0 {
-                    *out.quadratic.entry((i.min(j), i.max(j))).or_default() +=
-                        quarters as i64 * f * g;
-                }
+            for (key, sign) in parts.products {
+                *out.quadratic.entry(key).or_default() += quarters as i64 * i64::from(sign);
             }
-            for (one, other) in [(&left, &right), (&right, &left)] {
-                for &(i, f) in &one.0 {
-                    out.linear[i] += p.factor * point(f as f64) * other.1;
-                }
+            for (k, by) in parts.linear {
+                out.linear[k] += p.factor * by;
             }
-            out.constant += p.factor * left.1 * right.1;
+            out.constant += p.factor * parts.constant;
         }
         out.quadratic.retain(|_, q| *q != 0);
         Some(out)

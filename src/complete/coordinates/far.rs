@@ -6,64 +6,38 @@
 //! that every row that is left holds, too.
 
 use super::contract::Empty;
-use super::system::{Form, Row};
-use crate::equations::Ring;
-use crate::interval::{Interval, ZERO, point};
+use super::system::Row;
+use crate::elimination::clear;
+use crate::interval::{Interval, ZERO};
 
-/// Σ factors · unbounded unknowns + constant = 0.
-struct Linear {
-    factors: Vec<Interval>,
-    constant: Interval,
-}
-
-impl Linear {
-    /// A row, if it is linear in the unbounded unknowns and all else in it is bounded.
-    fn new(row: &Row, unbounded: &[usize], x: &[Interval]) -> Option<Self> {
-        let place = |entry: usize| unbounded.iter().position(|&u| u == entry);
-        if !row.entries.iter().any(|&e| place(e).is_some()) {
+/// A row as Σ factors · unbounded unknowns + constant = 0, the constant being last, if it is linear in these and all else in it is bounded.
+fn linear(row: &Row, unbounded: &[usize], x: &[Interval]) -> Option<Vec<Interval>> {
+    let place = |entry: usize| unbounded.iter().position(|&u| u == entry);
+    if !row.entries.iter().any(|&e| place(e).is_some()) {
+        return None;
+    }
+    let n = unbounded.len();
+    let mut out = vec![ZERO; n + 1];
+    out[n] = -row.right;
+    for p in &row.products {
+        let parts = p.expand(|entry| place(entry).ok_or(x[entry]));
+        if !parts.products.is_empty() {
             return None;
         }
-        let mut out = Linear {
-            factors: vec![ZERO; unbounded.len()],
-            constant: -row.right,
-        };
-        // The unbounded unknowns of a form, with their signs, and the rest of it.
-        let split = |form: Form| {
-            let mut own = Vec::new();
-            let mut rest = if form == Form::One { point(1.0) } else { ZERO };
-            for (entry, sign) in form.entries() {
-                match place(entry) {
-                    Some(k) => own.push((k, Interval::whole(sign))),
-                    None => rest += Interval::whole(sign) * x[entry],
-                }
-            }
-            (own, rest)
-        };
-        for p in &row.products {
-            let (left, right) = (split(p.left), split(p.right));
-            if !left.0.is_empty() && !right.0.is_empty() {
-                return None;
-            }
-            let factor = p.factor;
-            out.constant += factor * left.1 * right.1;
-            for (one, other) in [(&left, &right), (&right, &left)] {
-                for &(k, sign) in &one.0 {
-                    out.factors[k] += factor * sign * other.1;
-                }
-            }
+        for (k, by) in parts.linear {
+            out[k] += p.factor * by;
         }
-        let is_bounded =
-            out.constant.is_common_interval() && out.factors.iter().all(|x| x.is_common_interval());
-        is_bounded.then_some(out)
+        out[n] += p.factor * parts.constant;
     }
+    out.iter().all(|x| x.is_common_interval()).then_some(out)
+}
 
-    /// How certain it is that an unknown stands in it, beside all others.
-    fn share(&self, k: usize) -> f64 {
-        let all: f64 = self.factors.iter().map(|x| x.mag()).sum();
-        match all > 0.0 {
-            true => self.factors[k].mig() / all,
-            false => 0.0,
-        }
+/// How certain it is that an unknown stands in a row, beside all others.
+fn share(factors: &[Interval], k: usize) -> f64 {
+    let all: f64 = factors.iter().map(|x| x.mag()).sum();
+    match all > 0.0 {
+        true => factors[k].mig() / all,
+        false => 0.0,
     }
 }
 
@@ -71,51 +45,35 @@ impl Linear {
 pub fn far(rows: &[&Row], is_free: &[bool], x: &mut [Interval]) -> Result<bool, Empty> {
     let unbounded = (0..x.len()).filter(|&e| is_free[e] && !x[e].is_common_interval());
     let unbounded: Vec<usize> = unbounded.collect();
-    let linear = rows
-        .iter()
-        .filter_map(|row| Linear::new(row, &unbounded, x));
-    let mut linear: Vec<Linear> = linear.collect();
+    let n = unbounded.len();
+    let linear = rows.iter().filter_map(|row| linear(row, &unbounded, x));
+    let mut linear: Vec<Vec<Interval>> = linear.collect();
     // For each row the unknown that it is solved for.
     let mut solved: Vec<Option<usize>> = vec![None; linear.len()];
-    let mut is_open = vec![true; unbounded.len()];
+    let mut is_open = vec![true; n];
     loop {
         let pairs = (0..linear.len())
             .filter(|&e| solved[e].is_none())
-            .flat_map(|e| (0..unbounded.len()).map(move |k| (e, k)));
+            .flat_map(|e| (0..n).map(move |k| (e, k)));
         let pairs = pairs.filter(|&(_, k)| is_open[k]);
         let best = pairs
-            .map(|(e, k)| (linear[e].share(k), e, k))
+            .map(|(e, k)| (share(&linear[e][..n], k), e, k))
             .filter(|(share, ..)| *share > 0.0)
             .max_by(|a, b| a.0.total_cmp(&b.0));
         let Some((_, pivot, k)) = best else { break };
         solved[pivot] = Some(k);
         is_open[k] = false;
-        let (before, rest) = linear.split_at_mut(pivot);
-        let Some((row, after)) = rest.split_first_mut() else {
-            break;
-        };
-        for other in before.iter_mut().chain(after) {
-            if other.factors[k] == ZERO {
-                continue;
-            }
-            let by = other.factors[k] / row.factors[k];
-            for (factor, &of) in other.factors.iter_mut().zip(&row.factors) {
-                *factor -= by * of;
-            }
-            // The same numbers in both, so that nothing is left of this one.
-            other.factors[k] = ZERO;
-            other.constant -= by * row.constant;
-        }
+        clear(&mut linear, pivot, k);
     }
     let mut is_better = false;
     for (row, k) in linear.iter().zip(&solved) {
         let Some(k) = *k else { continue };
-        let mut others = row.factors.iter().enumerate().filter(|(j, _)| *j != k);
+        let mut others = row[..n].iter().enumerate().filter(|(j, _)| *j != k);
         if !others.all(|(_, factor)| *factor == ZERO) {
             continue;
         }
         let entry = unbounded[k];
-        let new = x[entry].intersection(-(row.constant / row.factors[k]));
+        let new = x[entry].intersection(-(row[n] / row[k]));
         if new.is_empty() {
             return Err(Empty);
         }
@@ -128,9 +86,9 @@ pub fn far(rows: &[&Row], is_free: &[bool], x: &mut [Interval]) -> Result<bool, 
 #[cfg(test)]
 mod tests {
     use super::super::contract::{entire, upper_half};
-    use super::super::system::Product;
+    use super::super::system::{Form, Product};
     use super::*;
-    use crate::interval::hull;
+    use crate::interval::{hull, point};
 
     /// (x, y) + L u = (0, 0) and (x, y) + M v = (1, 0) in the entries x, y, L, M, u, v, 0, 1.
     fn corner(u: [f64; 2], v: [f64; 2], wide: f64) -> (Vec<Row>, Vec<Interval>) {

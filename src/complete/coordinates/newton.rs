@@ -2,6 +2,7 @@
 
 use super::contract::Empty;
 use super::system::Row;
+use crate::complete::krawczyk::alone;
 use crate::elimination::invert;
 use crate::interval::rounding::{largest, round_up};
 use crate::interval::{Interval, ZERO, hull, point};
@@ -158,10 +159,8 @@ impl Square<'_> {
         Ok(Step { defect })
     }
 
-    /// Newton's method from the middle of a box, then Krawczyk's test with the norm max |w_i|, for all values that the known
-    /// entries may have in theirs: with Y ≈ J(c)⁻¹, ‖I − Y J(c + w)‖ ≤ q₀ + κ|w|, F being quadratic; so there is at most one
-    /// zero for |w| < (1 − q₀)/κ, and exactly one, at most ‖Y F(c)‖/(1 − q) away, where that is small enough. `None`: no
-    /// zero was proved.
+    /// Newton's method from the middle of a box, then the test that [`alone`] ends, for all values that the known entries may have in
+    /// theirs. `None`: no zero was proved.
     pub fn prove(&self, x: &[Interval]) -> Option<Zero> {
         let n = self.size();
         let mut own: Vec<f64> = self.own.iter().map(|&u| x[u].mid()).collect();
@@ -232,16 +231,8 @@ impl Square<'_> {
             kappa = largest(kappa, change.sup());
             step = largest(step, moved.mag());
         }
-        if !(q0 < 0.5 && kappa < 1e30 && step.is_finite()) {
-            return None;
-        }
-        let alone = match kappa > 0.0 {
-            true => (0.9 * (0.9 - q0) / kappa).min(1e30),
-            false => 1e30,
-        };
-        let q = round_up(q0 + kappa * alone, 4);
-        let radius = round_up(step / (1.0 - q), 8);
-        (q < 1.0 && radius < 0.1 * alone).then_some(Zero {
+        let [radius, alone] = alone([q0, kappa, step], 1e30)?;
+        Some(Zero {
             centre: own,
             radius,
             alone,

@@ -10,9 +10,9 @@ use crate::complex::boxes::SolutionBox;
 use crate::complex::ends::EndProver;
 use crate::complex::exact::Exact;
 use crate::complex::system::{Equation, Kind, Start, System, Unknown, segment};
-use crate::complex::vector::{Z, cross, dot, plus};
+use crate::complex::vector::{Z, cross, dot, minus, plus};
 use crate::equations::Form;
-use crate::interval::complex::{Complex, Number};
+use crate::interval::complex::Number;
 use crate::interval::{DoubleDouble, Interval, enclose_rational, point};
 use crate::order::InOrder;
 use crate::system::Term;
@@ -71,34 +71,33 @@ fn far(last: &[[Z; 3]]) -> Option<Vec<bool>> {
 /// About the coordinates of all points: those of the module's text, for the ε that they have.
 fn coordinates(last: &[[Z; 3]], [inside, link, outside]: &Parts) -> Option<Vec<[Z; 3]>> {
     let origin = last[link[0]];
-    let minus_one = -Complex::real(1.0);
-    let from_origin = |p: usize| plus(&last[p], minus_one, &origin);
+    let from_origin = |p: usize| minus(last[p], origin);
     let (near, away) = (from_origin(outside[0]), from_origin(inside[0]));
     // The isotropic directions in the plane of both: one nearly that of the point far away, the other nearly that of the
     // point that stays, or as far from it as its length is from zero beside its product with the former.
-    let product = dot(&near, &away);
+    let product = dot(near, away);
     let towards = plus(
         &away,
-        small_root(dot(&near, &near), product, dot(&away, &away)),
+        small_root(dot(near, near), product, dot(away, away)),
         &near,
     );
     let other = plus(
         &near,
-        small_root(dot(&away, &away), product, dot(&near, &near)),
+        small_root(dot(away, away), product, dot(near, near)),
         &away,
     );
-    let normal = cross(&near, &away);
-    let scale = dot(&normal, &normal).sqrt().inverse();
+    let normal = cross(near, away);
+    let scale = dot(normal, normal).sqrt().inverse();
     // σ of the point that stays is 1.
-    let of_sigma = dot(&towards, &near).inverse();
-    let of_lambda = dot(&towards, &near) * dot(&towards, &other).inverse();
+    let of_sigma = dot(towards, near).inverse();
+    let of_lambda = dot(towards, near) * dot(towards, other).inverse();
     let of_lambda = of_lambda.times(2.0.into());
     let coordinates = |p: usize| {
         let v = from_origin(p);
         [
-            dot(&other, &v) * of_lambda,
-            dot(&normal, &v) * scale,
-            dot(&towards, &v) * of_sigma,
+            dot(other, v) * of_lambda,
+            dot(normal, v) * scale,
+            dot(towards, v) * of_sigma,
         ]
     };
     let mut all: Vec<[Z; 3]> = (0..last.len()).map(coordinates).collect();

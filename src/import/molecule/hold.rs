@@ -1,5 +1,6 @@
 //! What holds a molecule: as many constraints as it has free coordinates, those of bonds first.
 
+use crate::interval::vector::{cross, dot, length, minus};
 use crate::linalg::Span;
 use crate::order::InOrder;
 use crate::places::array;
@@ -305,23 +306,4 @@ impl<'a> Rank<'a> {
             }
         }
     }
-}
-
-fn minus(a: Place, b: Place) -> Place {
-    array(|k| a[k] - b[k])
-}
-
-fn dot(a: Place, b: Place) -> f64 {
-    (0..3).map(|k| a[k] * b[k]).sum()
-}
-
-fn cross(a: Place, b: Place) -> Place {
-    array(|k| {
-        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-        a[i] * b[j] - a[j] * b[i]
-    })
-}
-
-fn length(a: Place) -> f64 {
-    dot(a, a).sqrt()
 }

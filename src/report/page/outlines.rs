@@ -1,6 +1,7 @@
 //! Lines, planes, circles, spheres and arcs as they are drawn: each in a few numbers that move with the figure.
 
 use super::{Page, Shape};
+use crate::interval::vector::{cross, length};
 use crate::places::{Each as _, array};
 
 /// How far drawn lines and planes go beyond the figure, as a part of it.
@@ -38,13 +39,10 @@ pub(super) fn plane(figure: &[f64], point: [f64; 3], normal: [f64; 3]) -> Vec<f6
     let axis = (0..3).min_by(|&i, &j| normal[i].abs().total_cmp(&normal[j].abs()));
     let axis = axis.expect("three axes");
     let mut u: [f64; 3] = array(|k| f64::from(u8::from(k == axis)) - normal[axis] * normal[k]);
-    let size = u.iter().map(|x| x * x).sum::<f64>().sqrt().max(1e-300);
+    let size = length(u).max(1e-300);
     u.iter_mut()
         .for_each(|x| *x *= (0.7 + BEYOND) * reach / size);
-    let v: [f64; 3] = array(|k| {
-        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-        normal[i] * u[j] - normal[j] * u[i]
-    });
+    let v = cross(normal, u);
     [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]
         .into_iter()
         .flat_map(|(a, b)| (0..3).map(move |k| foot[k] + a * u[k] + b * v[k]))
@@ -56,17 +54,9 @@ pub(super) fn from(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     array(|k| b[k] - a[k])
 }
 
-/// The product that is perpendicular to both.
-pub(super) fn cross(u: [f64; 3], v: [f64; 3]) -> [f64; 3] {
-    array(|k| {
-        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-        u[i] * v[j] - u[j] * v[i]
-    })
-}
-
 /// A vector made 1 long; `None` if it has no direction.
 pub(super) fn unit(v: [f64; 3]) -> Option<[f64; 3]> {
-    let long = v.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let long = length(v);
     (long > 0.0 && long.is_finite()).then(|| v.each(|x| x / long))
 }
 

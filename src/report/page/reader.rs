@@ -2,6 +2,7 @@
 
 use super::{Bar, Figure, Label, Page, Shape, Tone, outlines};
 use crate::interval::hull;
+use crate::interval::vector::cross;
 use crate::places::array;
 use crate::report::certain_digits;
 use serde_json::Value;
@@ -394,7 +395,7 @@ impl<'a> Reader<'a> {
                     outlines::plane(points, there(place("point")?), turn(place("normal")?))
                 }
                 ("plane", &[a, b, c]) => {
-                    let normal = outlines::cross(outlines::from(a, b), outlines::from(a, c));
+                    let normal = cross(outlines::from(a, b), outlines::from(a, c));
                     outlines::plane(points, a, outlines::unit(normal)?)
                 }
                 ("circle" | "sphere", &[center]) => {

@@ -40,7 +40,7 @@ struct Simplex {
 impl Orientations {
     /// Of each point and as many of the points joined to it as there are dimensions.
     pub fn new(homotopy: &Homotopy, spare: &Vector) -> Self {
-        let (d, m) = (homotopy.dimension, homotopy.equations);
+        let d = homotopy.dimension;
         let pairs = homotopy.edges.iter().map(|edge| edge.points);
         let mut all = simplices(d, homotopy.points, pairs);
         all.extend(homotopy.followed.iter().cloned());
@@ -49,9 +49,9 @@ impl Orientations {
         }
         all.sort_unstable();
         all.dedup();
-        let entry = |p: usize, axis: usize| match homotopy.gauge.variable.get(p * d + axis) {
-            Some(&i) if axis < d && i < m => i as u32,
-            _ => m as u32 + 1,
+        let entry = |p: usize, axis: usize| {
+            let unknown = homotopy.coordinate(p, axis);
+            unknown.unwrap_or(homotopy.equations + 1) as u32
         };
         let simplex = |points: Vec<usize>, segment| Simplex {
             segment,

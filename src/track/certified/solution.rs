@@ -4,7 +4,7 @@ use super::reasons::Doubt;
 use crate::interval::rounding::{gamma, largest, round_up};
 use crate::interval::{Interval, hull, point};
 use crate::linalg::Vector;
-use crate::places::{Each as _, array};
+use crate::places::Each as _;
 use crate::system::{Homotopy, Located};
 use crate::track::full::{Equations, InverseMaker, Local, Tail};
 
@@ -342,20 +342,13 @@ impl SolutionBox {
 
     /// The coordinates of all points in the problem's units.
     pub fn points(&self, homotopy: &Homotopy) -> Vec<[Interval; 3]> {
-        let d = homotopy.dimension;
-        let m = homotopy.equations;
-        (0..homotopy.points)
-            .map(|p| {
-                array(|axis| {
-                    if axis >= d || homotopy.gauge.variable[p * d + axis] == m {
-                        return point(0.0);
-                    }
-                    let x = self.entry(homotopy.gauge.variable[p * d + axis]);
-                    // Scaling by a power of two is exact.
-                    hull(x.inf() * homotopy.unit, x.sup() * homotopy.unit)
-                })
-            })
-            .collect()
+        let coordinate = |i: usize| {
+            let x = self.entry(i);
+            // Scaling by a power of two is exact.
+            hull(x.inf() * homotopy.unit, x.sup() * homotopy.unit)
+        };
+        let points = 0..homotopy.points;
+        points.map(|p| homotopy.place(p, coordinate)).collect()
     }
 
     /// An unknown, in the homotopy's unit.

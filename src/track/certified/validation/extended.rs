@@ -64,18 +64,14 @@ impl<'a> Rational<'a> {
 
     fn residual(&self, z: &[BigRational]) -> Vec<BigRational> {
         let homotopy = self.homotopy;
-        let (d, m) = (homotopy.dimension, homotopy.equations);
-        let get = |p: usize, axis: usize| match homotopy.gauge.variable[p * d + axis] {
-            v if v < m => z[v].clone(),
-            _ => BigRational::zero(),
-        };
-        let t = &z[m];
+        let t = &z[homotopy.equations];
         let per_edge = homotopy.edges.iter().zip(&self.lengths);
         per_edge
             .map(|(edge, [a0, a1, a2])| {
                 let [i, j] = edge.points;
-                let squared = (0..d).fold(BigRational::zero(), |sum, axis| {
-                    sum + (get(i, axis) - get(j, axis)).pow(2)
+                let [a, b] = [i, j].map(|p| homotopy.place(p, |i| z[i].clone()));
+                let squared = (0..3).fold(BigRational::zero(), |sum, axis| {
+                    sum + (&a[axis] - &b[axis]).pow(2)
                 });
                 let length = a0 + t * (a1 + t * a2);
                 (squared - length.pow(2)) / exact(2.0)
@@ -86,20 +82,19 @@ impl<'a> Rational<'a> {
     /// J(z) v.
     fn jacobian_times(&self, z: &[BigRational], v: &[BigRational]) -> Vec<BigRational> {
         let homotopy = self.homotopy;
-        let (d, m) = (homotopy.dimension, homotopy.equations);
-        let zero = BigRational::zero();
-        let get = |x: &[BigRational], p: usize, axis: usize| {
-            let v = homotopy.gauge.variable[p * d + axis];
-            if v < m { x[v].clone() } else { zero.clone() }
-        };
+        let m = homotopy.equations;
         let t = &z[m];
         let per_edge = homotopy.edges.iter().zip(&self.lengths);
         per_edge
             .map(|(edge, [a0, a1, a2])| {
                 let [i, j] = edge.points;
-                let product = (0..d).fold(BigRational::zero(), |sum, axis| {
-                    sum + (get(z, i, axis) - get(z, j, axis)) * (get(v, i, axis) - get(v, j, axis))
-                });
+                let between = |x: &[BigRational]| {
+                    let [a, b] = [i, j].map(|p| homotopy.place(p, |i| x[i].clone()));
+                    [0, 1, 2].map(|axis| &a[axis] - &b[axis])
+                };
+                let (a, b) = (between(z), between(v));
+                let products = a.iter().zip(&b).map(|(a, b)| a * b);
+                let product: BigRational = products.sum();
                 let (length, slope) = (a0 + t * (a1 + t * a2), a1 + exact(2.0) * t * a2);
                 product - length * slope * &v[m]
             })

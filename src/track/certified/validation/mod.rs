@@ -256,20 +256,10 @@ impl<'a> Exact<'a> {
         let t = z[self.m];
         let mut rows: Rows = (0..self.m)
             .map(|e| {
-                let mut row = vec![point(0.0); self.n];
-                for term in self.homotopy.terms(e) {
-                    let half = point(f64::from(term.factor)) * point(0.5);
-                    for (of, other) in [(term.left, term.right), (term.right, term.left)] {
-                        let d = half * self.factor(z, other);
-                        if let Form::Difference(i, j) = of {
-                            i.into_iter().for_each(|i| row[i] += d);
-                            j.into_iter().for_each(|j| row[j] -= d);
-                        }
-                    }
-                }
+                let mut row = self.homotopy.slopes(e, |i| z[i]);
                 let e = self.homotopy.rights[e].enclosures();
                 let [two, three, four] = [2.0, 3.0, 4.0].each(point);
-                row[self.m] = -(e[1] + t * (two * e[2] + t * (three * e[3] + t * four * e[4])));
+                row.push(-(e[1] + t * (two * e[2] + t * (three * e[3] + t * four * e[4]))));
                 row
             })
             .collect();

@@ -85,16 +85,13 @@ pub fn exact_solution(
 
 /// Squared distances between all points, in rationals.
 fn shape(homotopy: &Homotopy, x: &[BigRational]) -> Vec<BigRational> {
-    let d = homotopy.dimension;
-    let get = |p: usize, axis: usize| match homotopy.gauge.variable[p * d + axis] {
-        v if v < x.len() => x[v].clone(),
-        _ => BigRational::zero(),
-    };
+    let places = (0..homotopy.points).map(|p| homotopy.place(p, |i| x[i].clone()));
+    let places: Vec<[BigRational; 3]> = places.collect();
     let mut out = Vec::new();
     for i in 0..homotopy.points {
         for j in 0..i {
-            out.push((0..d).fold(BigRational::zero(), |sum, axis| {
-                let difference = get(i, axis) - get(j, axis);
+            out.push((0..3).fold(BigRational::zero(), |sum, axis| {
+                let difference = &places[i][axis] - &places[j][axis];
                 sum + &difference * &difference
             }));
         }
@@ -105,7 +102,6 @@ fn shape(homotopy: &Homotopy, x: &[BigRational]) -> Vec<BigRational> {
 /// Checks all that is claimed of a closed run's solutions one by one.
 pub fn check_solutions(problem: &Problem, outcome: &Outcome) {
     let homotopy = Homotopy::new(problem).unwrap();
-    let (d, m) = (homotopy.dimension, homotopy.equations);
     let slack = exact(1e-55);
     let found: Vec<Vec<BigRational>> = outcome
         .solutions
@@ -114,15 +110,10 @@ pub fn check_solutions(problem: &Problem, outcome: &Outcome) {
         .collect();
     for (solution, x) in outcome.solutions.iter().zip(&found) {
         for (p, point) in solution.points.iter().enumerate() {
-            for (axis, box_) in point.iter().enumerate() {
-                let free = axis < d && homotopy.gauge.variable[p * d + axis] < m;
-                let value = if free {
-                    x[homotopy.gauge.variable[p * d + axis]].clone()
-                } else {
-                    BigRational::zero()
-                };
+            let place = homotopy.place(p, |i| x[i].clone());
+            for (axis, (box_, value)) in point.iter().zip(&place).enumerate() {
                 assert!(
-                    exact(box_.inf()) <= &value + &slack && &value - &slack <= exact(box_.sup()),
+                    exact(box_.inf()) <= value + &slack && value - &slack <= exact(box_.sup()),
                     "{}: coordinate {axis} of point {p} is not in {box_:?}",
                     problem.name
                 );

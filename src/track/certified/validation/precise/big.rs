@@ -1,5 +1,6 @@
 //! Numbers of 256 bits, and linear algebra with them.
 
+use crate::equations::{Halved, Ring};
 use crate::interval::Interval;
 use dashu_float::FBig;
 use dashu_float::ops::Abs;
@@ -84,6 +85,18 @@ macro_rules! operators {
     )*};
 }
 operators!(Add add, Sub sub, Mul mul, Div div);
+
+impl Ring for Big {
+    fn whole(number: i32) -> Self {
+        Big::of(number.into())
+    }
+}
+
+impl Halved for Big {
+    fn halves(self, count: i32) -> Self {
+        self * Big::of(0.5 * f64::from(count))
+    }
+}
 
 impl Neg for Big {
     type Output = Big;

@@ -1,7 +1,7 @@
 //! The homotopy in 256 bits, from the problem's decimals.
 
 use super::big::{Big, Rows, dot, exact, solve};
-use crate::equations::Form;
+use crate::equations::{Form, left_side, slopes};
 use crate::places::Each as _;
 use crate::problem::{Problem, Target};
 use crate::system::{Homotopy, Term};
@@ -14,6 +14,11 @@ pub struct Figure {
     terms: Vec<Vec<Term>>,
     /// The coefficients of E(t), by equation.
     pub e: Vec<[Big; 5]>,
+}
+
+/// The values of entries of terms.
+fn at(z: &[Big]) -> impl Fn(Option<usize>) -> Big {
+    |entry| entry.map_or(Big::of(0.0), |i| z[i].clone())
 }
 
 impl Figure {
@@ -68,27 +73,14 @@ impl Figure {
         }
     }
 
-    /// A factor of a term: a difference of unknowns, or 1.
-    fn factor(&self, z: &[Big], form: Form<Option<usize>>) -> Big {
-        let value = |entry: Option<usize>| entry.map_or(Big::of(0.0), |i| z[i].clone());
-        match form {
-            Form::One => Big::of(1.0),
-            Form::Difference(i, j) => value(i) - value(j),
-        }
-    }
-
     /// F.
     pub fn residual(&self, z: &[Big]) -> Vec<Big> {
-        let (t, half) = (&z[self.m], Big::of(0.5));
+        let t = &z[self.m];
         let row = |e: usize| {
-            let product = |term: &Term| {
-                let (x, y) = (self.factor(z, term.left), self.factor(z, term.right));
-                Big::of(term.factor.into()) * (&x * &y)
-            };
-            let twice: Big = self.terms[e].iter().map(product).sum();
+            let left = left_side(&self.terms[e], at(z));
             let c = &self.e[e];
             let right = (0..4).rev().fold(c[4].clone(), |sum, k| &sum * t + &c[k]);
-            &half * &twice - right
+            left - right
         };
         (0..self.m).map(row).collect()
     }
@@ -98,16 +90,9 @@ impl Figure {
         let t = &z[self.m];
         let row = |e: usize| {
             let mut row = vec![Big::of(0.0); self.n];
-            for term in &self.terms[e] {
-                let half = Big::of(0.5 * f64::from(term.factor));
-                for (of, other) in [(term.left, term.right), (term.right, term.left)] {
-                    let d = &half * &self.factor(z, other);
-                    if let Form::Difference(i, j) = of {
-                        i.into_iter().for_each(|i| row[i] += d.clone());
-                        j.into_iter().for_each(|j| row[j] -= d.clone());
-                    }
-                }
-            }
+            slopes(&self.terms[e], at(z), |entry, slope| {
+                entry.into_iter().for_each(|i| row[i] += slope.clone());
+            });
             let slope = (1..5).rev().fold(Big::of(0.0), |sum, k| {
                 &sum * t + Big::of(k as f64) * &self.e[e][k]
             });
@@ -121,17 +106,12 @@ impl Figure {
     pub fn change_of_jacobian(&self, v: &[Big]) -> Rows {
         let row = |e: usize| {
             let mut row = vec![Big::of(0.0); self.n];
-            for term in &self.terms[e] {
-                let half = Big::of(0.5 * f64::from(term.factor));
-                for (of, other) in [(term.left, term.right), (term.right, term.left)] {
-                    // The number 1 does not move.
-                    if let (Form::Difference(i, j), Form::Difference(..)) = (of, other) {
-                        let d = &half * &self.factor(v, other);
-                        i.into_iter().for_each(|i| row[i] += d.clone());
-                        j.into_iter().for_each(|j| row[j] -= d.clone());
-                    }
-                }
-            }
+            // The number 1 does not move.
+            let terms = self.terms[e].iter();
+            let terms = terms.filter(|term| !term.forms().contains(&Form::One));
+            slopes(terms, at(v), |entry, slope| {
+                entry.into_iter().for_each(|i| row[i] += slope.clone());
+            });
             row
         };
         (0..self.m).map(row).collect()
