@@ -119,6 +119,26 @@ fn what_is_under_a_root_is_supposed_to_be_positive() {
     }
 }
 
+/// A square has two roots, also where blocks are solved one by one: a number has no side on which it is drawn.
+#[test]
+fn blocks_take_both_roots_of_a_number() {
+    use krawl::track::{Control, Options};
+    let problem =
+        read("equations = [\"4*x^2 = 123.456\", \"y^2 = x + 10\"]\n[unknowns]\nx = 1\ny = 3\n");
+    let figures =
+        krawl::blocks::Figures::find(&problem, &Options::certified(), &mut Control::default());
+    let figures = figures.unwrap();
+    assert_eq!(figures.count(), Some(4));
+    let (found, is_complete) = real(&problem);
+    assert!(is_complete);
+    assert_eq!(found.len(), 4);
+    for number in 0..4 {
+        let (_, numbers) = figures.figure(number);
+        let numbers: Vec<f64> = numbers.iter().map(|x| x.unwrap().mid()).collect();
+        assert!(found.iter().any(|one| near(one, &numbers)), "{numbers:?}");
+    }
+}
+
 /// Sixteen of katsura-5's 32 complex solutions are real: counted by two searches that share no step, one of which is checked
 /// again by its certificate.
 #[test]

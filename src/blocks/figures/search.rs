@@ -178,6 +178,7 @@ impl<'a, 'c> Search<'a, 'c> {
                 // is; otherwise both.
                 if let [row] = rows.as_slice()
                     && is_square(row)
+                    && !is_number(cut, block.unknowns[0])
                     && let Some(sense) = sense
                     && let [first, second] = solutions.as_slice()
                     && formula::sense_at(&local, first) == Some(sense)
@@ -227,6 +228,12 @@ impl<'a, 'c> Search<'a, 'c> {
         });
         (solutions, doubt)
     }
+}
+
+/// Whether an unknown is a number that has no direction: both signs of it are solutions.
+fn is_number(cut: &Cut, unknown: usize) -> bool {
+    let of = &cut.system.unknowns[unknown];
+    of.role == Role::Free && !of.flips.contains(&true) && !cut.system.coordinates.contains(&unknown)
 }
 
 /// A row that says that a product is zero, and one factor of which cannot vanish in a figure, says so of the other factor:
