@@ -17,7 +17,7 @@
 //! more isolated figures.
 
 use super::laman;
-use crate::problem::{Atom, Problem, Terms};
+use crate::problem::{Atom, Object, Problem, Shape, Terms};
 use std::collections::HashMap;
 
 /// A bound on the number of isolated complex solutions up to rotation.
@@ -40,15 +40,17 @@ pub struct Bound {
 /// is anything else in the problem.
 pub fn of_equations(problem: &Problem) -> Option<Bound> {
     let degree = |terms: &Terms| terms.keys().map(Vec::len).max().unwrap_or(0) as u128;
-    if !problem.points.is_empty() {
+    let of_numbers = |object: &Object| matches!(object.shape, Shape::Number { .. });
+    if !problem.points.is_empty() || !problem.objects.iter().all(of_numbers) {
         return None;
     }
     let mut count: u128 = 1;
     let mut quotients: Vec<&Terms> = Vec::new();
     for constraint in &problem.constraints {
-        let Some(formula) = &constraint.formula else {
-            // The value of an unknown.
-            continue;
+        let formula = match &constraint.formula {
+            Some(formula) => formula,
+            None if constraint.kind == "values" => continue,
+            None => return None,
         };
         count = count.checked_mul(degree(&formula.zero))?;
         for atom in &formula.atoms {

@@ -95,6 +95,11 @@ pub enum SettingError {
     /// A parameter where a dimension is driven.
     #[error("{0} is a parameter, which `krawl edit FILE --set` sets: name a dimension here")]
     Parameter(String),
+    /// A parameter that nothing is computed from.
+    #[error(
+        "nothing is computed from {0}, and it stands in no equation: there is nothing to change"
+    )]
+    Unused(String),
     /// A parameter, or a dimension, cannot be computed.
     #[error("{0}: {1}")]
     Expression(String, String),

@@ -123,6 +123,9 @@ impl Asked {
             .map_err(|(name, why)| SettingError::Expression(name, why))?;
         if !set.is_empty() {
             let followed = following(problem, &parameters)?;
+            if followed.is_empty() {
+                return Err(SettingError::Unused(set.swap_remove(0).0));
+            }
             beyond.extend(
                 followed
                     .iter()

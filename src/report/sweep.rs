@@ -28,7 +28,18 @@ fn write_ranges(
     ranges: &[Range],
     moved: Moved,
 ) -> std::fmt::Result {
-    if moved.tubes > 0 {
+    if ranges.is_empty() {
+        return writeln!(
+            out,
+            "There is none: no distance, no number of a constraint, and no parameter that stands in an equation."
+        );
+    }
+    if moved.tubes > 0 && problem.points.is_empty() {
+        writeln!(
+            out,
+            "The sketch was led to its own dimensions first, proved likewise."
+        )?;
+    } else if moved.tubes > 0 {
         writeln!(
             out,
             "The sketch was led to its own dimensions first, proved likewise: no point moved by more than {:.1e}.",
