@@ -315,13 +315,16 @@ pub(super) fn is_led_alone(problem: &Problem, name: &str) -> bool {
         let expression = value.expression();
         expression.is_some_and(|expression| names(expression).any(|other| other == name))
     };
-    let computed = problem
-        .dimensions()
-        .filter(|&index| number(problem, index).is_some_and(has));
-    let computed: Vec<usize> = computed.collect();
+    let own = problem.labels.iter().find(|(_, label)| *label == name);
+    let own = own.map(|(index, _)| *index).filter(|index| {
+        let constraint = index.checked_sub(problem.distances.len());
+        constraint.is_some_and(|c| problem.constraints[c].kind == "values")
+    });
+    let mut dimensions = problem.dimensions().filter(|&index| Some(index) != own);
     let mut parameters = problem.parameters.iter();
-    let is_label = |index: &usize| problem.labels.get(index).is_some_and(|label| label == name);
-    matches!(&computed[..], [own] if is_label(own)) && !parameters.any(|(_, value)| has(value))
+    own.is_some()
+        && !dimensions.any(|index| number(problem, index).is_some_and(has))
+        && !parameters.any(|(_, value)| has(value))
 }
 
 /// What a turn is at t on its way: θ and four times the argument of `1 + (e^iΔ/4 − 1) t`, as its equations lead it.

@@ -479,7 +479,21 @@ pub fn edit_to_value(problem: &Problem, edited: &Edited, moved: Moved) -> Value 
             "reason": dragged.stop.as_ref().map(|stop| &stop.text),
         });
     }
+    let unknowns = middles(problem, &edited.numbers, true);
+    if unknowns.as_object().is_some_and(|all| !all.is_empty()) {
+        value["unknowns"] = unknowns;
+    }
     value
+}
+
+/// The radii of circles, or the values of unknown numbers, by name, in floats.
+fn middles(problem: &Problem, numbers: &[Option<Interval>], are_unknowns: bool) -> Value {
+    let objects = problem.objects.iter().zip(numbers);
+    let objects = objects.filter(|(o, _)| matches!(o.shape, Shape::Number { .. }) == are_unknowns);
+    let all: Map<String, Value> = objects
+        .filter_map(|(object, number)| Some((object.name.clone(), json!((*number)?.mid()))))
+        .collect();
+    Value::Object(all)
 }
 
 /// An edit as `krawl edit --json` writes it: with what is said of every problem (docs/json.md, "The problem"), and with
@@ -488,17 +502,7 @@ pub fn edit_to_document(problem: &Problem, edited: &Edited, session: &Session) -
     let mut value = edit_to_value(problem, edited, session.moved());
     // The session's figure is the new one where that was reached.
     if edited.ending == Ending::Reached {
-        let numbers = || problem.objects.iter().zip(session.numbers());
-        let of = |are_unknowns: bool| -> Map<String, Value> {
-            let all =
-                numbers().filter(|(o, _)| matches!(o.shape, Shape::Number { .. }) == are_unknowns);
-            all.filter_map(|(object, number)| Some((object.name.clone(), json!(number?.mid()))))
-                .collect()
-        };
-        value["radii"] = Value::Object(of(false));
-        if numbers().any(|(o, _)| matches!(o.shape, Shape::Number { .. })) {
-            value["unknowns"] = Value::Object(of(true));
-        }
+        value["radii"] = middles(problem, &session.numbers(), false);
     }
     Drawing::in_place("edit", problem).with(value)
 }

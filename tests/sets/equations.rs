@@ -215,7 +215,8 @@ fn parameters_are_dimensions() {
     let wanted = [(sum + difference) / 2.0, (sum - difference) / 2.0, 6.25];
     assert!(near(&numbers, &wanted), "{numbers:?}");
     // Where both meet the circle touches: a = 2.
-    let edited = session.edit(&[Setting::parse(&problem, "a=1").unwrap()]);
+    let setting = Setting::parse(session.problem(), "a=1").unwrap();
+    let edited = session.edit(&[setting]);
     let Ending::Limit(_) = edited.ending else {
         panic!("{:?}", edited.ending)
     };

@@ -132,7 +132,7 @@ class Edited:
 
     @property
     def unknowns(self) -> dict:
-        """The values of unknown numbers by name, where the edit was reached (docs/equations.md)."""
+        """The values of unknown numbers by name in the figure (docs/equations.md)."""
         return self.data.get("unknowns", {})
 
     @property
