@@ -4,7 +4,7 @@ use super::arguments::Arguments;
 use super::lowering::{Fault, Lowering};
 use crate::decimal::Decimal;
 use crate::places::array;
-use crate::statement::{Item, Problem};
+use crate::statement::{Constraint, Item, Problem};
 
 /// What the number of a constraint is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -71,9 +71,9 @@ pub trait Kind: Sync {
     }
 
     /// What of the frame it fixes: unless it says more, directions, where it names a coordinate axis.
-    fn fixes(&self, _problem: &Problem, items: &[Item]) -> Fixes {
+    fn fixes(&self, _problem: &Problem, of: &Constraint) -> Fixes {
         Fixes {
-            frame: items.iter().any(|item| matches!(item, Item::Axis(_))),
+            frame: of.items.iter().any(|item| matches!(item, Item::Axis(_))),
             ..Fixes::default()
         }
     }

@@ -319,7 +319,7 @@ pub(crate) fn frame_of(problem: &Problem) -> Fixes {
     }
     let kinds = problem.constraints.iter();
     kinds
-        .filter_map(|c| Some(kind(&c.kind)?.fixes(problem, &c.items)))
+        .filter_map(|c| Some(kind(&c.kind)?.fixes(problem, c)))
         .fold(Fixes::default(), |all, one| Fixes {
             frame: all.frame || one.frame,
             axes: array(|k| all.axes[k] || one.axes[k]),

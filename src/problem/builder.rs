@@ -422,7 +422,7 @@ impl ProblemBuilder {
                     all.map(|index| (index, &problem.constraints[index]))
                         .find(|(_, c)| {
                             let kind = constraint::kind(&c.kind);
-                            kind.is_some_and(|kind| kind.fixes(&problem, &c.items).frame)
+                            kind.is_some_and(|kind| kind.fixes(&problem, c).frame)
                         });
                 let name = fixing.map(|(index, _)| problem.constraint_name(index));
                 let name = format!("`{}`", name.unwrap_or_default());

@@ -258,7 +258,7 @@ pub(super) struct Places {
     /// The parameters of the file.
     pub(super) parameters: Vec<(String, Decimal)>,
     /// Where parameters begin that do not begin with their values.
-    from: Vec<(String, Decimal)>,
+    from: Vec<(String, Decimal, Line)>,
     /// The parameters that stand in equations.
     led: Vec<String>,
     /// The equations of one's own: the key, the line and the text.
@@ -367,14 +367,12 @@ impl<'a> Reader<'a> {
         let problem = builder.finish();
         let mut problem = problem.map_err(|error| self.in_problem(&places, error))?;
         problem.tolerances = self.tolerances(root)?;
-        let named: Vec<usize> = (0..problem.constraints.len())
-            .filter(|&c| problem.constraints[c].kind == "values")
-            .collect();
-        for c in named {
-            // The numbers of parameters, and no other values, are computed by a name.
-            let value = problem.constraints[c].value.as_ref();
-            let name = value.and_then(Decimal::expression).map(str::to_owned);
-            if let Some(name) = name.filter(|name| places.led.iter().any(|led| led == name)) {
+        for (c, constraint) in problem.constraints.iter().enumerate() {
+            if let ("values", [super::Item::Object(object)]) =
+                (constraint.kind.as_str(), &constraint.items[..])
+                && places.led.contains(&problem.objects[*object].name)
+            {
+                let name = problem.objects[*object].name.clone();
                 problem.labels.insert(problem.distances.len() + c, name);
             }
         }
@@ -625,7 +623,7 @@ impl<'a> Reader<'a> {
                     self.known_keys(parts, &format!("{key}."), &["value", "from"])?;
                     if let Some(from) = parts.get("from").and_then(Item::as_value) {
                         let from = number(from, out)?;
-                        places.from.push((name.to_owned(), from));
+                        places.from.push((name.to_owned(), from, line));
                     }
                     parts.get("value").and_then(Item::as_value)
                 }
@@ -690,13 +688,13 @@ impl<'a> Reader<'a> {
         for (name, value) in &places.parameters {
             let mut equations = places.equations.iter();
             let used = equations.find(|(_, _, text)| expression::names(text).any(|n| n == name));
-            let from = places.from.iter().find(|(other, _)| other == name);
+            let from = places.from.iter().find(|(other, ..)| other == name);
             match (used, from) {
                 (None, None) => continue,
-                (None, Some(_)) => {
+                (None, Some((_, _, line))) => {
                     let key = format!("parameters.{name}.from");
                     let found = "one that stands in none".to_owned();
-                    return Err(self.wrong(None, &key, "of a parameter in `equations`", found));
+                    return Err(self.wrong(*line, &key, "of a parameter in `equations`", found));
                 }
                 (Some((key, line, _)), _) if objects.contains(name) => {
                     let found = format!("`{name}`, which is both");
@@ -707,7 +705,7 @@ impl<'a> Reader<'a> {
             }
             places.led.push(name.clone());
             places.objects.push(("parameters", None));
-            builder = builder.unknown(name, from.map_or(value, |(_, from)| from).clone());
+            builder = builder.unknown(name, from.map_or(value, |(_, from, _)| from).clone());
         }
         Ok(builder)
     }

@@ -42,8 +42,8 @@ pub(super) fn read(
         return Err(reader.wrong("an operator or `=` was expected"));
     }
     let atoms = std::mem::take(&mut reader.algebra().atoms);
-    if zero.keys().all(Vec::is_empty) {
-        let why = match zero.is_empty() {
+    if let Some(number) = Polynomials::constant(&zero) {
+        let why = match number.is_zero() {
             true => "it holds whatever the unknowns are: remove it",
             false => "there is no unknown in it, and it does not hold",
         };
@@ -51,6 +51,12 @@ pub(super) fn read(
     }
     let text = text.trim().to_owned();
     Ok(Formula { text, atoms, zero })
+}
+
+fn too_many_terms() -> String {
+    format!(
+        " has more than {MOST_TERMS} terms where it is multiplied out: make a part of it an unknown with an equation of its own"
+    )
 }
 
 /// Polynomials in what names stand for.
@@ -89,9 +95,7 @@ impl Polynomials<'_> {
 
     fn checked(terms: Terms) -> Result<Terms, String> {
         if terms.len() > MOST_TERMS {
-            return Err(format!(
-                " has more than {MOST_TERMS} terms where it is multiplied out"
-            ));
+            return Err(too_many_terms());
         }
         if terms.keys().any(|term| term.len() > MOST_DEGREE) {
             return Err(format!(" has a degree above {MOST_DEGREE}"));
@@ -207,9 +211,7 @@ impl Algebra for Polynomials<'_> {
 
     fn product(&self, a: &Terms, b: &Terms) -> Result<Terms, String> {
         if a.len() * b.len() > 100 * MOST_TERMS {
-            return Self::checked(a.clone()).and(Err(format!(
-                " has more than {MOST_TERMS} terms where it is multiplied out"
-            )));
+            return Err(too_many_terms());
         }
         let mut out = Terms::new();
         for (s, x) in a {

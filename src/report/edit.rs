@@ -215,6 +215,9 @@ fn dragged_in_words(problem: &Problem, edited: &Edited, dragged: &Dragged) -> St
 
 /// What is special about the figure at a limit.
 pub fn limit_in_words(problem: &Problem, limit: &Limit) -> String {
+    if problem.points.is_empty() {
+        return "The equations are singular there: two solutions meet.".to_owned();
+    }
     let sizes = limit.motion.iter().copied().map(length);
     let mut moving: Vec<(usize, f64)> = sizes.enumerate().collect();
     moving.order_by(|a, b| b.1.total_cmp(&a.1));
@@ -224,14 +227,10 @@ pub fn limit_in_words(problem: &Problem, limit: &Limit) -> String {
         .filter(|m| m.1 > 1e-3)
         .map(|m| m.0)
         .collect();
-    let which = match moving.is_empty() {
-        true => String::new(),
-        false => format!(", {} most", named(problem, &moving)),
-    };
-    let instant = format!("for an instant it can move with all its dimensions as they are{which}");
-    if problem.points.is_empty() {
-        return "The equations are singular there: two solutions meet.".to_owned();
-    }
+    let instant = format!(
+        "for an instant it can move with all its dimensions as they are, {} most",
+        named(problem, &moving)
+    );
     if limit.flat.is_empty() {
         return format!("The figure there is at a dead centre: {instant}.");
     }
@@ -274,22 +273,28 @@ pub fn edit_to_table(problem: &Problem, edited: &Edited, moved: Moved) -> String
     out
 }
 
+/// How far the sketch was led before, if it was.
+pub(super) fn write_moved(out: &mut String, problem: &Problem, moved: Moved) -> std::fmt::Result {
+    if moved.tubes == 0 {
+        return Ok(());
+    }
+    let far = match problem.points.is_empty() {
+        true => String::new(),
+        false => format!(": no point moved by more than {:.1e}", moved.distance),
+    };
+    writeln!(
+        out,
+        "The sketch was led to its own dimensions first, proved likewise{far}."
+    )
+}
+
 fn write_edit(
     out: &mut String,
     problem: &Problem,
     edited: &Edited,
     moved: Moved,
 ) -> std::fmt::Result {
-    if moved.tubes > 0 {
-        let far = match problem.points.is_empty() {
-            true => String::new(),
-            false => format!(": no point moved by more than {:.1e}", moved.distance),
-        };
-        writeln!(
-            out,
-            "The sketch was led to its own dimensions first, proved likewise{far}."
-        )?;
-    }
+    write_moved(out, problem, moved)?;
     let what = match edited.ending {
         Ending::Reached if problem.points.is_empty() => "Solution",
         Ending::Limit(_) if problem.points.is_empty() => "Solution at the limit",
@@ -479,21 +484,16 @@ pub fn edit_to_value(problem: &Problem, edited: &Edited, moved: Moved) -> Value 
             "reason": dragged.stop.as_ref().map(|stop| &stop.text),
         });
     }
-    let unknowns = middles(problem, &edited.numbers, true);
+    let unknowns = numbers_to_value(problem, &edited.numbers, true, middle);
     if unknowns.as_object().is_some_and(|all| !all.is_empty()) {
         value["unknowns"] = unknowns;
     }
     value
 }
 
-/// The radii of circles, or the values of unknown numbers, by name, in floats.
-fn middles(problem: &Problem, numbers: &[Option<Interval>], are_unknowns: bool) -> Value {
-    let objects = problem.objects.iter().zip(numbers);
-    let objects = objects.filter(|(o, _)| matches!(o.shape, Shape::Number { .. }) == are_unknowns);
-    let all: Map<String, Value> = objects
-        .filter_map(|(object, number)| Some((object.name.clone(), json!((*number)?.mid()))))
-        .collect();
-    Value::Object(all)
+/// The middle of a box, as a float.
+fn middle(x: Interval) -> Value {
+    json!(x.mid())
 }
 
 /// An edit as `krawl edit --json` writes it: with what is said of every problem (docs/json.md, "The problem"), and with
@@ -502,7 +502,7 @@ pub fn edit_to_document(problem: &Problem, edited: &Edited, session: &Session) -
     let mut value = edit_to_value(problem, edited, session.moved());
     // The session's figure is the new one where that was reached.
     if edited.ending == Ending::Reached {
-        value["radii"] = middles(problem, &session.numbers(), false);
+        value["radii"] = numbers_to_value(problem, &session.numbers(), false, middle);
     }
     Drawing::in_place("edit", problem).with(value)
 }
@@ -642,16 +642,17 @@ fn left_out(account: &Account) -> (Vec<String>, Vec<String>) {
     (names(Why::Follows), names(Why::NothingNew))
 }
 
-/// The radii of circles, or the values of unknown numbers, by name.
+/// The radii of circles, or the values of unknown numbers, by name, each as `number` has it.
 pub(super) fn numbers_to_value(
     problem: &Problem,
     numbers: &[Option<Interval>],
     are_unknowns: bool,
+    number: impl Fn(Interval) -> Value,
 ) -> Value {
     let objects = problem.objects.iter().zip(numbers);
     let objects = objects.filter(|(o, _)| matches!(o.shape, Shape::Number { .. }) == are_unknowns);
     let all: Map<String, Value> = objects
-        .filter_map(|(object, number)| Some((object.name.clone(), bounds((*number)?))))
+        .filter_map(|(object, x)| Some((object.name.clone(), number((*x)?))))
         .collect();
     Value::Object(all)
 }

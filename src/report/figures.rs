@@ -1,7 +1,7 @@
 //! The figures of a sketch in its own frame, as its blocks give them.
 
 use super::drawing::Drawing;
-use super::edit::{numbers_to_value, points_to_value, write_numbers, write_points};
+use super::edit::{bounds, numbers_to_value, points_to_value, write_numbers, write_points};
 use super::supposed::supposed;
 use crate::blocks::{BlockAccount, Chosen, Comparison, Figures, First, Sense, Way};
 use crate::problem::Shape;
@@ -387,10 +387,10 @@ pub fn figures_to_value(figures: &Figures, listed: Listed) -> Value {
             "number": number,
             "choices": chosen.collect::<Vec<_>>(),
             "points": points_to_value(problem, &points),
-            "radii": numbers_to_value(problem, &numbers, false),
+            "radii": numbers_to_value(problem, &numbers, false, bounds),
             "senses": senses_to_value(figures, number),
         });
-        let unknowns = numbers_to_value(problem, &numbers, true);
+        let unknowns = numbers_to_value(problem, &numbers, true, bounds);
         if unknowns.as_object().is_some_and(|all| !all.is_empty()) {
             value["unknowns"] = unknowns;
         }

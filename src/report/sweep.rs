@@ -2,7 +2,9 @@
 
 use super::certain_digits;
 use super::drawing::{Drawing, names};
-use super::edit::{bounds, edit_in_words, edit_to_value, limit_in_words, points_to_value, short};
+use super::edit::{
+    bounds, edit_in_words, edit_to_value, limit_in_words, points_to_value, short, write_moved,
+};
 use super::measured::Measures;
 use crate::edit::{Edited, End, Ending, Moved, Range, Sweep};
 use crate::interval::Interval;
@@ -34,18 +36,7 @@ fn write_ranges(
             "There is none: no distance, no number of a constraint, and no parameter that stands in an equation."
         );
     }
-    if moved.tubes > 0 && problem.points.is_empty() {
-        writeln!(
-            out,
-            "The sketch was led to its own dimensions first, proved likewise."
-        )?;
-    } else if moved.tubes > 0 {
-        writeln!(
-            out,
-            "The sketch was led to its own dimensions first, proved likewise: no point moved by more than {:.1e}.",
-            moved.distance
-        )?;
-    }
+    write_moved(out, problem, moved)?;
     writeln!(out)?;
     let account = ranges.iter().map(|range| range.account.clone());
     let account = account.reduce(|mut all, one| {

@@ -1,15 +1,12 @@
 //! Equations of one's own on the command line: what is wrong with them is said with its place, and what is found is written.
 
-use assert_cmd::Command;
+use crate::krawl;
 use std::fs;
 
-fn krawl(arguments: &[&str]) -> (Option<i32>, String) {
-    let output = Command::new(env!("CARGO_BIN_EXE_krawl"))
-        .args(arguments)
-        .output()
-        .unwrap();
-    let text = [output.stdout, output.stderr].concat();
-    (output.status.code(), String::from_utf8(text).unwrap())
+/// The exit code, and all that was written.
+fn run(arguments: &[&str]) -> (Option<i32>, String) {
+    let (code, text, error) = krawl(arguments);
+    (code, text + &error)
 }
 
 #[test]
@@ -62,7 +59,7 @@ fn what_is_wrong_is_said_with_its_place() {
         ("[unknowns]\nx = 1\n", "constraints"),
     ] {
         fs::write(file, text).unwrap();
-        let (code, said) = krawl(&["all", file]);
+        let (code, said) = run(&["all", file]);
         assert!(code == Some(2) && said.contains(words), "{text}: {said}");
     }
 }
@@ -73,7 +70,7 @@ fn what_is_found_is_written_into_the_file() {
     let out = directory.path().join("out.toml");
     let path = out.to_str().unwrap();
     let file = "docs/examples/circle-hyperbola.toml";
-    let (code, said) = krawl(&["edit", file, "--set", "a=5", "--out", path]);
+    let (code, said) = run(&["edit", file, "--set", "a=5", "--out", path]);
     assert_eq!(code, Some(0), "{said}");
     assert!(
         said.contains("  x = 2.18890105931673") && said.contains("  a = 5\n"),
@@ -85,11 +82,11 @@ fn what_is_found_is_written_into_the_file() {
         "{text}"
     );
     // The parameter is a dimension, which can be driven.
-    let (code, said) = krawl(&[
+    let (code, said) = run(&[
         "sweep", file, "--vary", "a", "--from", "4", "--to", "9", "--frames", "3",
     ]);
     assert_eq!(code, Some(0), "{said}");
-    let (code, said) = krawl(&["limits", file]);
+    let (code, said) = run(&["limits", file]);
     assert!(
         code == Some(0) && said.contains("a          4   2.0000000"),
         "{said}"
@@ -98,10 +95,10 @@ fn what_is_found_is_written_into_the_file() {
     for verb in [&["solve"][..], &["all"], &["limits"]] {
         let html = directory.path().join("page.html");
         let asked = [verb, &[file, "--html", html.to_str().unwrap()]].concat();
-        let (code, said) = krawl(&asked);
+        let (code, said) = run(&asked);
         assert!(code == Some(0) && html.exists(), "{verb:?}: {said}");
     }
-    let (code, said) = krawl(&["motion", file, "--free", "a"]);
+    let (code, said) = run(&["motion", file, "--free", "a"]);
     assert!(
         code == Some(2) && said.contains("not of unknown numbers"),
         "{said}"
@@ -111,6 +108,6 @@ fn what_is_found_is_written_into_the_file() {
 /// What is exported has the equations, and the names.
 #[test]
 fn equations_are_exported() {
-    let (code, said) = krawl(&["export", "docs/examples/katsura-5.toml", "--to", "phcpack"]);
+    let (code, said) = run(&["export", "docs/examples/katsura-5.toml", "--to", "phcpack"]);
     assert!(code == Some(0) && said.contains("u1 is u0"), "{said}");
 }

@@ -15,3 +15,17 @@ mod problem_files;
 mod readme;
 mod robustness;
 mod taking;
+
+/// Runs the program: its exit code, and what it wrote to standard output and to standard error.
+fn krawl(arguments: &[&str]) -> (Option<i32>, String, String) {
+    let output = assert_cmd::Command::new(env!("CARGO_BIN_EXE_krawl"))
+        .args(arguments)
+        .output()
+        .unwrap();
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    (
+        output.status.code(),
+        text(output.stdout),
+        text(output.stderr),
+    )
+}

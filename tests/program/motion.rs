@@ -1,21 +1,8 @@
 //! `krawl motion` as people and programs use it.
 
-use assert_cmd::Command;
+use crate::krawl;
 use serde_json::Value;
 use std::fs;
-
-fn krawl(arguments: &[&str]) -> (Option<i32>, String, String) {
-    let output = Command::new(env!("CARGO_BIN_EXE_krawl"))
-        .args(arguments)
-        .output()
-        .unwrap();
-    let text = |bytes| String::from_utf8(bytes).unwrap();
-    (
-        output.status.code(),
-        text(output.stdout),
-        text(output.stderr),
-    )
-}
 
 const CRANK: &str = "problems/mechanisms/crank.toml";
 

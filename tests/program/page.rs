@@ -1,23 +1,10 @@
 //! The page in a real browser: a figure is there, the slider moves it, solutions can be picked, there is
 //! nothing on the console. Where there is no Chromium the browser's tests say so and pass.
 
-use assert_cmd::Command;
+use crate::krawl;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command as Process;
-
-fn krawl(arguments: &[&str]) -> (Option<i32>, String, String) {
-    let output = Command::new(env!("CARGO_BIN_EXE_krawl"))
-        .args(arguments)
-        .output()
-        .unwrap();
-    let text = |bytes| String::from_utf8(bytes).unwrap();
-    (
-        output.status.code(),
-        text(output.stdout),
-        text(output.stderr),
-    )
-}
 
 /// The browser, if there is one.
 fn browser() -> Option<PathBuf> {

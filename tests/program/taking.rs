@@ -1,21 +1,8 @@
 //! `--out` of `solve` and `all`: a figure in the file that it is of. The file taken is read again by another verb.
 
-use assert_cmd::Command;
+use crate::krawl;
 use krawl::problem::Problem;
 use std::path::Path;
-
-fn krawl(arguments: &[&str]) -> (Option<i32>, String, String) {
-    let output = Command::new(env!("CARGO_BIN_EXE_krawl"))
-        .args(arguments)
-        .output()
-        .unwrap();
-    let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).unwrap();
-    (
-        output.status.code(),
-        text(&output.stdout),
-        text(&output.stderr),
-    )
-}
 
 fn sketch(file: &Path) -> Vec<[f64; 3]> {
     let problem = Problem::parse_loosely(&std::fs::read_to_string(file).unwrap(), "taken").unwrap();

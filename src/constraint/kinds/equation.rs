@@ -23,9 +23,11 @@ impl Kind for Equations {
         "an equation in quotes, \"x^2 + y^2 = 2\""
     }
 
-    fn fixes(&self, problem: &Problem, items: &[Item]) -> Fixes {
-        let mut equations = problem.constraints.iter().filter(|c| c.items == items);
-        let is_placed = equations.any(|c| c.formula.as_ref().is_some_and(|f| f.is_placed()));
+    fn fixes(&self, _: &Problem, of: &Constraint) -> Fixes {
+        let is_placed = of
+            .formula
+            .as_ref()
+            .is_some_and(|formula| formula.is_placed());
         Fixes {
             frame: is_placed,
             axes: [is_placed; 3],

@@ -24,8 +24,8 @@ impl Kind for Fixed {
         "a point, a line, a plane, a circle or a sphere"
     }
 
-    fn fixes(&self, problem: &Problem, items: &[Item]) -> Fixes {
-        let shape = match items.first() {
+    fn fixes(&self, problem: &Problem, of: &Constraint) -> Fixes {
+        let shape = match of.items.first() {
             Some(&Item::Object(o)) => Some(&problem.objects[o].shape),
             _ => None,
         };

@@ -29,7 +29,7 @@ impl Kind for Level {
         "a line, or two points"
     }
 
-    fn fixes(&self, _: &Problem, _: &[Item]) -> Fixes {
+    fn fixes(&self, _: &Problem, _: &Constraint) -> Fixes {
         Fixes {
             frame: true,
             ..Fixes::default()

@@ -73,7 +73,7 @@ mod prelude {
     pub use super::super::polynomial::multiply;
     pub use super::super::quadratic::{Form, Product, value};
     pub use crate::interval::Real;
-    pub use crate::statement::{Item, Problem};
+    pub use crate::statement::{Constraint, Item, Problem};
     pub use num_rational::BigRational;
     pub use num_traits::{Signed, Zero};
 

@@ -22,8 +22,8 @@ impl Kind for On {
         "a point and a line, plane, circle, sphere or arc"
     }
 
-    fn fixes(&self, _: &Problem, items: &[Item]) -> Fixes {
-        Fixes::beside_axis(items)
+    fn fixes(&self, _: &Problem, of: &Constraint) -> Fixes {
+        Fixes::beside_axis(&of.items)
     }
 
     fn lower(&self, mut of: Given, low: &mut Lowering) -> Result<(), Fault> {

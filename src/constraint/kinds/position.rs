@@ -63,7 +63,7 @@ impl Kind for Position {
         Measure::Signed
     }
 
-    fn fixes(&self, _: &Problem, _: &[Item]) -> Fixes {
+    fn fixes(&self, _: &Problem, _: &Constraint) -> Fixes {
         let axes = array(|k| k == self.axis && !self.difference);
         Fixes { frame: true, axes }
     }

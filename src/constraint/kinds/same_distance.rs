@@ -21,8 +21,8 @@ impl Kind for EqualDistances {
         "a point and a line, and another point and a line (which may be the same), in the plane"
     }
 
-    fn fixes(&self, _: &Problem, items: &[Item]) -> Fixes {
-        Fixes::beside_axis(items)
+    fn fixes(&self, _: &Problem, of: &Constraint) -> Fixes {
+        Fixes::beside_axis(&of.items)
     }
 
     fn lower(&self, mut of: Given, low: &mut Lowering) -> Result<(), Fault> {

@@ -23,8 +23,8 @@ impl Kind for Symmetric {
         "two points, and a line, `x-axis`, `y-axis`, a plane or a point"
     }
 
-    fn fixes(&self, _: &Problem, items: &[Item]) -> Fixes {
-        match items.last() {
+    fn fixes(&self, _: &Problem, of: &Constraint) -> Fixes {
+        match of.items.last() {
             // Mirrored in the x axis, heights add up to zero.
             Some(&Item::Axis(k)) => Fixes {
                 frame: true,

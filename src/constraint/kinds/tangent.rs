@@ -26,8 +26,8 @@ impl Kind for Tangent {
         "a circle, arc or sphere, and another one, a line or a plane"
     }
 
-    fn fixes(&self, _: &Problem, items: &[Item]) -> Fixes {
-        Fixes::beside_axis(items)
+    fn fixes(&self, _: &Problem, of: &Constraint) -> Fixes {
+        Fixes::beside_axis(&of.items)
     }
 
     fn lower(&self, mut of: Given, low: &mut Lowering) -> Result<(), Fault> {

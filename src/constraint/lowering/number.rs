@@ -8,6 +8,8 @@ use num_bigint::BigInt;
 use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{One, Signed, ToPrimitive, Zero};
+use std::cmp::Reverse;
+use std::collections::HashMap;
 
 /// A number that equations are made of: an unknown without a unit of length.
 #[derive(Debug, Clone)]
@@ -29,6 +31,8 @@ pub(super) enum Made {
     Coordinate(usize, usize),
     /// The distance of two points.
     Length([usize; 2]),
+    /// The unit in which both are counted.
+    Unit,
     /// Two numbers multiplied.
     Product([Entry; 2]),
     /// A constant.
@@ -76,27 +80,17 @@ impl Lowering<'_> {
         if let Some(number) = self.numbers.get(&made) {
             return number.clone();
         }
-        let unit = Made::Length([usize::MAX; 2]);
-        let unit = match self.numbers.get(&unit) {
-            Some(number) => number.entry,
+        let unit = match self.numbers.get(&Made::Unit) {
+            Some(number) => number.clone(),
             None => {
-                let one = Real::whole(1);
-                let name = "the unit of length".to_owned();
-                let entry = self.coefficient(&name, 1, Parity::Even, vec![one.clone()]);
-                self.numbers.insert(
-                    unit,
-                    Number {
-                        entry,
-                        at: one,
-                        name,
-                    },
-                );
-                entry
+                let (name, at) = ("the unit of length".to_owned(), Real::whole(1));
+                let entry = self.coefficient(&name, 1, Parity::Even, vec![at.clone()]);
+                self.kept(Made::Unit, Number { entry, at, name })
             }
         };
         let entry = self.scalar(name.clone(), 0, Parity::Even, at.clone());
         let products = vec![
-            Product::new(1, value(entry), value(unit)),
+            Product::new(1, value(entry), value(unit.entry)),
             Product::new(-1, value(length), Form::One),
         ];
         self.equate(&name, products, vec![Real::zero()], 1);
@@ -227,40 +221,38 @@ impl Lowering<'_> {
         products
     }
 
-    /// The two numbers of a product of more than two that are to be one unknown: a pair that is one already, or the one that is
-    /// found most often.
+    /// The two numbers of a product of more than two that are to be one unknown: a pair that is one already, or the one that stands in most
+    /// terms.
     fn next_pair(&self, terms: &[(i64, Vec<Number>)]) -> Option<[Number; 2]> {
-        let long = terms.iter().map(|term| &term.1).filter(|f| f.len() > 2);
-        let mut found: Vec<([Number; 2], usize)> = Vec::new();
-        for factors in long {
-            for i in 0..factors.len() {
-                for j in i + 1..factors.len() {
-                    let pair = [factors[i].clone(), factors[j].clone()];
-                    match found.iter_mut().find(|(other, _)| key(other) == key(&pair)) {
-                        Some((_, count)) => *count += 1,
-                        None => found.push((pair, 1)),
+        // Of each pair in how many terms it is, and its place among all, so that the first of the best is the same in every run.
+        let mut found: HashMap<[Entry; 2], (usize, usize, [&Number; 2])> = HashMap::new();
+        let mut last: HashMap<[Entry; 2], usize> = HashMap::new();
+        let long = terms.iter().enumerate().filter(|(_, (_, f))| f.len() > 2);
+        for (term, (_, factors)) in long {
+            for (i, a) in factors.iter().enumerate() {
+                for b in &factors[i + 1..] {
+                    let pair = key([a, b]);
+                    // As often as it stands in a term it is one pair there.
+                    if last.insert(pair, term) != Some(term) {
+                        let place = found.len();
+                        found.entry(pair).or_insert((0, place, [a, b])).0 += 1;
                     }
                 }
             }
         }
-        let is_there = |pair: &[Number; 2]| self.numbers.contains_key(&Made::Product(key(pair)));
-        // The first of those that are best, so that it is the same in every run.
+        let is_there = |pair: &[Entry; 2]| self.numbers.contains_key(&Made::Product(*pair));
         let best = found
             .iter()
-            .map(|(pair, count)| (is_there(pair), *count))
-            .max()?;
-        let mut best = found
-            .into_iter()
-            .filter(|(pair, count)| (is_there(pair), *count) == best);
-        best.next().map(|(pair, _)| pair)
+            .max_by_key(|(pair, (count, place, _))| (is_there(pair), *count, Reverse(*place)));
+        best.map(|(_, (_, _, pair))| pair.map(Number::clone))
     }
 
     fn product_number(&mut self, pair: &[Number; 2]) -> Number {
-        let made = Made::Product(key(pair));
+        let [a, b] = pair;
+        let made = Made::Product(key([a, b]));
         if let Some(number) = self.numbers.get(&made) {
             return number.clone();
         }
-        let [a, b] = pair;
         let (name, at) = (format!("{}*{}", a.name, b.name), &a.at * &b.at);
         let entry = self.scalar(name.clone(), 0, Parity::Even, at.clone());
         let products = vec![
@@ -289,9 +281,9 @@ fn product((factor, factors): &(i64, Vec<Number>)) -> Product {
 }
 
 /// The entries of a pair, the same in either order.
-fn key(pair: &[Number; 2]) -> [Entry; 2] {
+fn key([a, b]: [&Number; 2]) -> [Entry; 2] {
     let rank = |entry: Entry| entry.unknown().unwrap_or(usize::MAX);
-    let [a, b] = [pair[0].entry, pair[1].entry];
+    let [a, b] = [a.entry, b.entry];
     if rank(a) <= rank(b) { [a, b] } else { [b, a] }
 }
 

@@ -66,8 +66,8 @@ impl Kind for Distances {
         items.two_things().ok().map(|things| names.in_words(things))
     }
 
-    fn fixes(&self, _: &Problem, items: &[Item]) -> Fixes {
-        Fixes::beside_axis(items)
+    fn fixes(&self, _: &Problem, of: &Constraint) -> Fixes {
+        Fixes::beside_axis(&of.items)
     }
 
     fn lower(&self, mut of: Given, low: &mut Lowering) -> Result<(), Fault> {
