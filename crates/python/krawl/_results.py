@@ -71,11 +71,6 @@ class Run:
         return self.data.get("reason")
 
     @property
-    def dragged(self) -> Optional[dict]:
-        """Of points that were dragged: where each was wanted, and how far it is from there (docs/edit.md)."""
-        return self.data.get("dragged")
-
-    @property
     def stopped_kind(self) -> Optional[str]:
         """What made the run stop, in a word (docs/json.md)."""
         return self.data.get("stopped_kind")
@@ -134,6 +129,11 @@ class Edited:
     def unknowns(self) -> dict:
         """The values of unknown numbers by name in the figure (docs/equations.md)."""
         return self.data.get("unknowns", {})
+
+    @property
+    def dragged(self) -> Optional[dict]:
+        """Of points that were dragged: where each was wanted, and how far it is from there (docs/edit.md)."""
+        return self.data.get("dragged")
 
     @property
     def reason(self) -> Optional[str]:

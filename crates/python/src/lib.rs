@@ -251,7 +251,7 @@ struct Session(Mutex<edit::Session>);
 impl Session {
     #[new]
     fn new(py: Python<'_>, text: &str, name: &str, to_drag: bool) -> PyResult<Self> {
-        let problem = parse(text, name)?;
+        let problem = Problem::parse_loosely(text, name).map_err(bad)?;
         let opened = interruptible(py, |cancel: &_| {
             let mut control = Control {
                 cancel: Some(cancel),
