@@ -5,7 +5,7 @@ use super::follows::{Combination, Given, combination};
 use super::singular::Singular;
 use super::{Account, Block, Blocks, COARSE, Choice, Held, Ruler, System, Verdict};
 use crate::constraint::{
-    Entry, Fault, Lowered, Owner, Record, Role, Tail, own_number, try_lower_all,
+    Entry, Fault, Lowered, Owner, Posed, Record, Role, Tail, own_number, try_lower_all,
 };
 use crate::equations::Form;
 use crate::interval::{Interval, Real};
@@ -44,6 +44,8 @@ pub(crate) struct Cut {
     pub rights: Vec<Vec<Real>>,
     /// The power of the unit of length of each of the problem's equations.
     pub powers: Vec<i32>,
+    /// For each object its own unknowns, and of bodies with joints how these tell where they are.
+    pub told: (Vec<Vec<Entry>>, Vec<Posed>),
     /// For each object the unknown that is its radius, if it is a circle, or its value, if it is a number.
     pub numbers: Vec<Option<usize>>,
     /// Of each line and plane of its own the unknowns that stay where it is reversed, and those that change their signs.
@@ -238,6 +240,7 @@ impl Cut {
             rights,
             powers,
             numbers,
+            told: (tail.objects, tail.poses),
             own,
             record,
             unit,

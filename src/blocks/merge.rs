@@ -1,11 +1,11 @@
 //! Unknowns that are one are made one.
 
-use crate::constraint::{Entry, Lowered, Nonzero, Role, Unknown};
+use crate::constraint::{Entry, Lowered, Nonzero, Posed, Role, Unknown};
 use crate::equations::Form;
-use crate::interval::{Real, enclose};
+use crate::interval::{Interval, Real, enclose, point as exactly};
 use crate::places::Each as _;
-use crate::problem::Problem;
-use crate::system::Term;
+use crate::problem::{Problem, Shape};
+use crate::system::{Located, Term, locate};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// An equation in merged unknowns, `½ Σ factor · left · right = E(t)`.
@@ -48,6 +48,25 @@ fn root(parent: &[usize], mut x: usize) -> usize {
 }
 
 impl System {
+    /// Where the objects of the problem are in a figure: its points in the problem's unit, and its unknowns, by number here, in a `unit` of length.
+    pub fn locate(
+        &self,
+        problem: &Problem,
+        (own, poses): &(Vec<Vec<Entry>>, Vec<Posed>),
+        points: &[[Interval; 3]],
+        unit: f64,
+        unknown: impl Fn(usize) -> Interval,
+    ) -> Vec<Located> {
+        let d = problem.dimension;
+        let value = |entry: Entry| match entry {
+            Entry::Coordinate { point, axis } => unknown(self.coordinates[point * d + axis]),
+            Entry::Unknown(k) => unknown(self.auxiliary[k]),
+            Entry::Zero => exactly(0.0),
+        };
+        let shapes: Vec<&Shape> = problem.objects.iter().map(|o| &o.shape).collect();
+        locate(&shapes, (own, poses), (d, unit), points, value)
+    }
+
     /// The unknowns' values in the sketch in floats, in a `unit` of length.
     pub fn sketch(&self, unit: f64) -> Vec<f64> {
         let at = self.unknowns.iter().zip(&self.values);

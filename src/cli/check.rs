@@ -603,6 +603,18 @@ fn object_line(problem: &Problem, object: &Object) -> String {
             names(&[*end])
         ),
         Shape::Number { sketch } => format!("{name}, an unknown (in the sketch {sketch})"),
+        Shape::Joint { sort, bodies, .. } => {
+            let [one, other] = bodies.map(|body| &problem.objects[body].name);
+            format!(
+                "{name}, a {} joint of {one} and {other}",
+                sort.key().replace('_', " ")
+            )
+        }
+        Shape::Body {
+            points,
+            place: Some(_),
+            ..
+        } if points.is_empty() => format!("{name}, a rigid body with joints"),
         Shape::Body { points, .. } => {
             format!("{name}, the rigid body of {} (not mirrored)", names(points))
         }

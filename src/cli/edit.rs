@@ -244,12 +244,11 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     if let Some(out) = &arguments.out
         && edited.ending == Ending::Reached
     {
-        let (points, numbers) = (session.figure(), session.numbers());
-        let numbers: Vec<Option<f64>> = numbers.iter().map(|x| x.map(|x| x.mid())).collect();
+        let (points, objects) = (session.figure(), session.objects());
         let mut changed = loaded.problem.clone();
         given.iter().for_each(|setting| setting.apply(&mut changed));
         changed.parameters = asked.parameters;
-        let bytes = loaded.rewritten(&arguments.file, &changed, &points, &numbers);
+        let bytes = loaded.rewritten(&arguments.file, &changed, &points, &objects);
         let bytes = bytes.map_err(|e| in_file(&e))?;
         let beside = Beside::new(out)?;
         written &= beside.commit(beside.file().write_all(&bytes));

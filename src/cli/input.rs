@@ -5,6 +5,7 @@ use krawl::complete::{Surplus, has_equations_to_spare};
 use krawl::edit::{Decomposition, Setting, completed};
 use krawl::import::{self, Figure, Format, Imported};
 use krawl::problem::{MAX_FILE_SIZE, Problem};
+use krawl::system::Located;
 use std::io::{self, Read};
 use std::path::Path;
 
@@ -237,17 +238,20 @@ impl Loaded {
         file: &Path,
         problem: &Problem,
         points: &[[f64; 3]],
-        numbers: &[Option<f64>],
+        objects: &[Located],
     ) -> Result<Vec<u8>, String> {
         match &self.imported {
             Some((imported, bytes)) => {
-                let radii: Vec<f64> = numbers.iter().map(|r| r.unwrap_or(0.0)).collect();
+                let radii: Vec<f64> = objects
+                    .iter()
+                    .map(|object| object.number().map_or(0.0, |radius| radius.mid()))
+                    .collect();
                 let radii = &radii;
                 import::rewrite(imported, bytes, problem, &Figure { points, radii })
             }
             None => {
                 let text = std::fs::read_to_string(file).map_err(|e| e.to_string())?;
-                let text = krawl::edit::rewrite(&text, problem, points, numbers);
+                let text = krawl::edit::rewrite(&text, problem, points, objects);
                 Ok(text.map_err(|e| e.to_string())?.into_bytes())
             }
         }

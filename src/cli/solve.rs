@@ -837,10 +837,10 @@ impl Arguments {
         };
         let from = (file, self.sketch.as_deref());
         self.take.write(from, problem, listed, |number| {
-            let (points, numbers) = figures.figure(number);
+            let (points, objects) = figures.figure(number);
             Ok(Taken {
                 points: points.iter().map(|p| p.each(|x| x.mid())).collect(),
-                numbers: numbers.iter().map(|x| x.map(|x| x.mid())).collect(),
+                objects,
             })
         })
     }

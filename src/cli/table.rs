@@ -168,9 +168,8 @@ fn write(
 ) -> Result<bool, String> {
     let mut changed = loaded.problem.clone();
     given.iter().for_each(|setting| setting.apply(&mut changed));
-    let (points, numbers) = (session.figure(), session.numbers());
-    let numbers: Vec<Option<f64>> = numbers.iter().map(|x| x.map(|x| x.mid())).collect();
-    let bytes = loaded.rewritten(&arguments.file, &changed, &points, &numbers)?;
+    let (points, objects) = (session.figure(), session.objects());
+    let bytes = loaded.rewritten(&arguments.file, &changed, &points, &objects)?;
     let stem = arguments
         .file
         .file_stem()

@@ -41,8 +41,8 @@ pub(super) struct Candidates {
 pub(super) struct Taken {
     /// Points, in the order of the problem.
     pub points: Vec<[f64; 3]>,
-    /// Radii of circles and values of unknown numbers, by object.
-    pub numbers: Vec<Option<f64>>,
+    /// Where its objects are.
+    pub objects: Vec<Located>,
 }
 
 impl Taken {
@@ -80,12 +80,8 @@ impl Taken {
                 there.map(|p| p.each(|x| x.mid())).collect()
             }
         };
-        let number = |object: &Located| match object {
-            Located::Round { radius: number, .. } | Located::Number(number) => Some(number.mid()),
-            _ => None,
-        };
-        let numbers = solution.objects.iter().map(number).collect();
-        Ok(Taken { points, numbers })
+        let objects = solution.objects.clone();
+        Ok(Taken { points, objects })
     }
 
     /// The sum of the squares of how far points are from where the sketch has them.
@@ -218,10 +214,11 @@ fn rewritten(
         let sketch = || point.sketch.each_ref().each(|x| x.to_f64());
         of_point(&point.name).map_or_else(sketch, |p| taken.points[p])
     });
-    let numbers = loaded.problem.objects.iter().map(|object| {
-        let number = of_object(&object.name).and_then(|o| taken.numbers.get(o));
-        number.copied().flatten()
+    let objects = loaded.problem.objects.iter().map(|object| {
+        let there = of_object(&object.name).and_then(|o| taken.objects.get(o));
+        // What there is none of stays as it is.
+        there.copied().unwrap_or(Located::Body)
     });
-    let (points, numbers): (Vec<_>, Vec<_>) = (points.collect(), numbers.collect());
-    loaded.rewritten(file, &loaded.problem, &points, &numbers)
+    let (points, objects): (Vec<_>, Vec<_>) = (points.collect(), objects.collect());
+    loaded.rewritten(file, &loaded.problem, &points, &objects)
 }

@@ -19,7 +19,7 @@ impl Matching {
     /// For the figures of a problem.
     pub fn new(homotopy: &Homotopy) -> Self {
         let own = |shape: &Shape| match shape {
-            Shape::Line(_) | Shape::Plane(_) | Shape::Body { .. } => false,
+            Shape::Line(_) | Shape::Plane(_) | Shape::Body { .. } | Shape::Joint { .. } => false,
             Shape::FreeLine { .. }
             | Shape::FreePlane { .. }
             | Shape::Round { .. }
@@ -136,7 +136,8 @@ fn size(figure: &Solution) -> f64 {
             Located::Round { radius: number, .. } | Located::Number(number) => {
                 max.max(number.mag())
             }
-            Located::Body => max,
+            Located::Pose { at, .. } => at.iter().fold(max, |max, x| max.max(x.mag())),
+            Located::Body | Located::Joint { .. } => max,
         })
 }
 

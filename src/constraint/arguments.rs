@@ -105,6 +105,8 @@ pub enum Sort {
     Round,
     /// A rigid body.
     Body,
+    /// A joint.
+    Joint,
     /// An unknown number.
     Number,
     /// A coordinate axis.
@@ -148,6 +150,7 @@ impl<'a> Arguments<'a> {
                 Shape::Plane(_) | Shape::FreePlane { .. } => Sort::Plane,
                 Shape::Round { .. } | Shape::Arc { .. } => Sort::Round,
                 Shape::Body { .. } => Sort::Body,
+                Shape::Joint { .. } => Sort::Joint,
                 Shape::Number { .. } => Sort::Number,
             },
         }
@@ -179,6 +182,7 @@ impl<'a> Arguments<'a> {
                 _ => format!("the sphere `{name}`"),
             },
             Sort::Body => format!("the body `{name}`"),
+            Sort::Joint => format!("the joint `{name}`"),
             Sort::Number => format!("the unknown `{name}`"),
             Sort::Axis => format!("`{name}`"),
             Sort::End => "nothing more".to_owned(),
@@ -208,6 +212,31 @@ impl<'a> Arguments<'a> {
                 Ok(object)
             }
             _ => Err(self.wanted("an unknown")),
+        }
+    }
+
+    /// A body with joints, by index of the object.
+    pub fn body(&mut self) -> Result<usize, Fault> {
+        match (self.next(), self.items.first()) {
+            (Sort::Body, Some(&Item::Object(object))) => {
+                self.take();
+                match self.problem.objects[object].shape {
+                    Shape::Body { place: Some(_), .. } => Ok(object),
+                    _ => Err("the body has no joints: fix its points".to_owned()),
+                }
+            }
+            _ => Err(self.wanted("a body")),
+        }
+    }
+
+    /// A joint, by index of the object.
+    pub fn joint(&mut self) -> Result<usize, Fault> {
+        match (self.next(), self.items.first()) {
+            (Sort::Joint, Some(&Item::Object(object))) => {
+                self.take();
+                Ok(object)
+            }
+            _ => Err(self.wanted("a joint")),
         }
     }
 
@@ -354,7 +383,7 @@ impl<'a> Arguments<'a> {
             }
             (Sort::Plane, _) | (Sort::Point, 3) => Thing::Flat(Flat::Plane(self.plane()?)),
             (Sort::Point, _) => Thing::Point(self.point()?),
-            (Sort::Body | Sort::Number | Sort::End, _) => {
+            (Sort::Body | Sort::Joint | Sort::Number | Sort::End, _) => {
                 return Err(self.wanted("a point, a line, a plane, a circle or a sphere"));
             }
         })

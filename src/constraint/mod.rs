@@ -24,6 +24,7 @@
 use crate::places::array;
 
 mod arguments;
+mod assembly;
 mod diameters;
 mod directions;
 mod factors;
@@ -54,7 +55,7 @@ pub use kinds::{EQUATIONS, KINDS};
 pub(crate) use lowering::MOST_TURN;
 pub use lowering::Spare;
 pub use quadratic::{
-    Entry, Equation, Form, MAX_DEGREE, Nonzero, Product, Role, Tail, Unknown, coordinate,
+    Entry, Equation, Form, MAX_DEGREE, Nonzero, Posed, Product, Role, Tail, Unknown, coordinate,
     difference, value,
 };
 pub(crate) use structure::check_structure;
@@ -311,7 +312,8 @@ pub fn fix_frame(problem: &Problem) -> bool {
 
 /// What of the frame the constraints fix together.
 pub(crate) fn frame_of(problem: &Problem) -> Fixes {
-    if problem.points.is_empty() {
+    // Of bodies with joints one stands.
+    if problem.points.is_empty() || problem.has_joints() {
         return Fixes {
             frame: true,
             axes: [true; 3],

@@ -311,7 +311,11 @@ impl Lowering<'_> {
                 let at = Real::from(sketch.value().clone());
                 vec![self.scalar(name, 0, Parity::Even, at)]
             }
-            Shape::Body { points, local } => {
+            Shape::Body { place: Some(_), .. } | Shape::Joint { .. } => {
+                self.assembled()?;
+                return Ok(());
+            }
+            Shape::Body { points, local, .. } => {
                 let (points, local) = (points.clone(), local.clone());
                 return self.body(&name, &points, &local);
             }
@@ -406,7 +410,7 @@ impl Lowering<'_> {
 }
 
 /// The difference the other way round.
-fn turned(form: Form) -> Form {
+pub(super) fn turned(form: Form) -> Form {
     match form {
         Form::Difference(a, b) => Form::Difference(b, a),
         Form::One => Form::One,

@@ -140,6 +140,20 @@ impl Nonzero {
     }
 }
 
+/// Where a body with joints is, by its unknowns.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Posed {
+    /// The body, by number among the objects.
+    pub body: usize,
+    /// Its origin: unknowns, or where it stands, in the problem's unit.
+    pub origin: Result<[Entry; 3], [Interval; 3]>,
+    /// The unit vectors by which it is told how it is turned: none of a body that stands, one in the plane, two in space.
+    pub along: Vec<[Form; 3]>,
+    /// Its axes: of a body that stands their coordinates, in the plane the coordinates along the vector and the same turned counter-clockwise by a
+    /// right angle, in space along both vectors and their cross product.
+    pub axes: [[Interval; 3]; 3],
+}
+
 /// All unknowns and equations beyond coordinates of points and distances. There are as many unknowns
 /// and equations in all as the problem has free coordinates and distances, and these.
 #[derive(Debug, Clone, PartialEq)]
@@ -157,6 +171,8 @@ pub struct Tail {
     /// For each object of the problem its own unknowns: of a line of its own the place nearest to the origin and
     /// the direction, of a plane of its own the normal and the level, of a circle, sphere or arc the radius.
     pub objects: Vec<Vec<Entry>>,
+    /// Where bodies with joints are.
+    pub poses: Vec<Posed>,
     /// Whether the mirror image of a solution is a solution too. It is not where a constraint says
     /// which way round a figure is.
     pub mirrors: bool,
@@ -170,6 +186,7 @@ impl Default for Tail {
             nonzero: Vec::new(),
             twins: Vec::new(),
             objects: Vec::new(),
+            poses: Vec::new(),
             mirrors: true,
         }
     }

@@ -3,6 +3,7 @@
 use super::drag::Dragged;
 use crate::blocks::{Account, Singular};
 use crate::interval::Interval;
+use crate::system::Located;
 use crate::track::Stop;
 use crate::track::arc::Orientation;
 
@@ -81,8 +82,8 @@ pub struct Edited {
     /// The figure in the coordinates of the problem: a box that holds exactly one figure with the dimensions of
     /// `t`, where it was reached and at a limit; otherwise the old figure.
     pub points: Vec<[Interval; 3]>,
-    /// The radii of circles and the values of unknown numbers in that figure, by object.
-    pub numbers: Vec<Option<Interval>>,
+    /// Where the problem's objects are in that figure.
+    pub objects: Vec<Located>,
     /// What is proved of the orientations.
     pub orientations: Orientations,
     /// Tubes that the proof took.

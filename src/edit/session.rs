@@ -10,6 +10,7 @@ use crate::blocks::{Account, Singular};
 use crate::interval::Interval;
 use crate::places::Each as _;
 use crate::problem::Problem;
+use crate::system::Located;
 use crate::track::{Control, Options, StartError, StopKind};
 
 /// A figure that meets its dimensions, and what follows edits of it; set up once for all of them.
@@ -144,11 +145,11 @@ impl Session {
         points.iter().map(|p| p.each(|x| x.mid())).collect()
     }
 
-    /// The radii of circles and the values of unknown numbers, by object: enclosures, in the unit of the problem.
-    pub fn numbers(&self) -> Vec<Option<Interval>> {
+    /// Where the problem's objects are: enclosures, in the unit of the problem.
+    pub fn objects(&self) -> Vec<Located> {
         match &self.way {
-            Way::Whole(whole) => whole.numbers(),
-            Way::Parts(parts) => parts.numbers(),
+            Way::Whole(whole) => whole.objects(),
+            Way::Parts(parts) => parts.objects(),
         }
     }
 
@@ -220,7 +221,7 @@ impl Session {
             ending: Ending::Stopped(astray.stop),
             t: astray.t,
             points: self.points(),
-            numbers: self.numbers(),
+            objects: self.objects(),
             orientations: Orientations::default(),
             account: astray.account,
             ..edited

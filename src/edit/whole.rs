@@ -8,11 +8,11 @@ use super::place::Stand;
 use super::segments::{NARROWER, Reversed, first_lost, is_same_by_constraint, segments, stop};
 use super::setting::Setting;
 use crate::blocks::Account;
-use crate::constraint::{Entry, Record, own_number, try_lower_editable};
+use crate::constraint::{Record, try_lower_editable};
 use crate::interval::{Interval, enclose, hull, point};
 use crate::places::Each as _;
-use crate::problem::{Decimal, Object, Problem, Target};
-use crate::system::{Homotopy, typical_length};
+use crate::problem::{Decimal, Problem, Target};
+use crate::system::{Homotopy, Located, typical_length};
 use crate::track::arc::{ArcEnd, ArcRun, Figure, Fold, Orientation};
 use crate::track::certified::{FollowArcs, arcs};
 use crate::track::{Control, LARGEST_SQUARE, Options, Space, StartError, Stop, StopKind};
@@ -140,21 +140,15 @@ impl Whole {
         }
     }
 
-    /// The radii of circles and the values of unknown numbers, by object.
-    pub fn numbers(&self) -> Vec<Option<Interval>> {
-        self.numbers_of(&self.figure)
+    /// Where the objects are.
+    pub fn objects(&self) -> Vec<Located> {
+        self.objects_of(&self.figure)
     }
 
-    fn numbers_of(&self, figure: &Figure) -> Vec<Option<Interval>> {
+    fn objects_of(&self, figure: &Figure) -> Vec<Located> {
+        let points = self.in_problem(figure);
         let homotopy = self.arcs.homotopy();
-        let places = homotopy.gauge.place.len();
-        let objects = self.problem.objects.iter().zip(&homotopy.tail.objects);
-        let number = |(object, entries): (&Object, &Vec<Entry>)| {
-            let unknown = own_number(&object.shape, entries)?;
-            let unit = homotopy.unit.powi(homotopy.tail.unknowns[unknown].power);
-            Some(figure.enclosure(places + unknown) * point(unit))
-        };
-        objects.map(number).collect()
+        homotopy.locate(&points, |unknown| figure.enclosure(unknown))
     }
 
     /// See [`super::Session::edit_with`].
@@ -358,7 +352,7 @@ impl Whole {
             t: run.t,
             dimensions,
             points: self.in_problem(&at),
-            numbers: self.numbers_of(&at),
+            objects: self.objects_of(&at),
             orientations: Orientations::new(run.orientations),
             tubes: run.steps,
             rejected: run.rejected,

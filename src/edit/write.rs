@@ -1,10 +1,11 @@
 //! The edited figure in the user's own file: only the numbers change.
 
 use crate::constraint::{Arguments, LineName, is_opposite_nearer};
-use crate::interval::Real;
+use crate::interval::{Interval, Real};
 use crate::order::InOrder;
 use crate::places::Each as _;
 use crate::problem::{Constraint, Decimal, Problem, Target};
+use crate::system::Located;
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Signed};
@@ -36,12 +37,12 @@ pub enum WriteError {
 /// the other order.
 ///
 /// Places are rounded to floats. Dimensions are put where they differ from what the text says, those given
-/// by their squares as exact squares. `numbers`: radii and values by object, in floats; `None` stands for what is not to be changed.
+/// by their squares as exact squares. `objects`: where they are; those that are missing stay as they are.
 pub fn rewrite(
     text: &str,
     problem: &Problem,
     places: &[[f64; 3]],
-    numbers: &[Option<f64>],
+    objects: &[Located],
 ) -> Result<String, WriteError> {
     let other = |what: &str| WriteError::OtherFile(what.to_owned());
     let document = Document::parse(text).map_err(|error| other(error.message()))?;
@@ -65,22 +66,41 @@ pub fn rewrite(
         let Some(circles) = table(root, key) else {
             continue;
         };
-        for (object, radius) in problem.objects.iter().zip(numbers) {
+        for (object, located) in problem.objects.iter().zip(objects) {
             let circle = circles.get(&object.name).and_then(Item::as_inline_table);
-            if let (Some(value), &Some(radius)) =
-                (circle.and_then(|circle| circle.get("radius")), radius)
-            {
-                put(value, float(radius))?;
+            if let (Some(value), Some(radius)) = (
+                circle.and_then(|circle| circle.get("radius")),
+                located.number(),
+            ) {
+                put(value, float(radius.mid()))?;
             }
         }
     }
     if let Some(unknowns) = table(root, "unknowns") {
-        for (object, number) in problem.objects.iter().zip(numbers) {
-            if let (Some(value), &Some(number)) =
-                (unknowns.get(&object.name).and_then(Item::as_value), number)
-            {
-                put(value, float(number))?;
+        for (object, located) in problem.objects.iter().zip(objects) {
+            if let (Some(value), Some(number)) = (
+                unknowns.get(&object.name).and_then(Item::as_value),
+                located.number(),
+            ) {
+                put(value, float(number.mid()))?;
             }
+        }
+    }
+    let mut new_places = String::new();
+    let standing = problem.standing_bodies();
+    for (index, (object, located)) in problem.objects.iter().zip(objects).enumerate() {
+        let Located::Pose { at, axes } = located else {
+            continue;
+        };
+        if standing.contains(&index) {
+            continue;
+        }
+        let there = table(root, "places").and_then(|places| places.get(&object.name));
+        if let Some(value) = there.and_then(Item::as_value) {
+            put(value, place(at, axes))?;
+        } else {
+            let name = toml_edit::Key::new(&object.name);
+            new_places += &format!("{name} = {}\n", place(at, axes));
         }
     }
     for (name, wanted) in &problem.parameters {
@@ -196,6 +216,20 @@ pub fn rewrite(
         }
     }
 
+    if !new_places.is_empty() {
+        let heading = text.lines().position(|line| line.trim() == "[places]");
+        match heading {
+            Some(line) => {
+                let end = text
+                    .split_inclusive('\n')
+                    .take(line + 1)
+                    .map(str::len)
+                    .sum();
+                changes.push((end..end, new_places));
+            }
+            None => changes.push((text.len()..text.len(), format!("\n[places]\n{new_places}"))),
+        }
+    }
     let mut out = text.to_owned();
     changes.extend(turned);
     changes.order_by_key(|change| std::cmp::Reverse(change.0.start));
@@ -203,6 +237,16 @@ pub fn rewrite(
         out.replace_range(span, &new);
     }
     Ok(out)
+}
+
+/// The place of a body with joints as a file has it.
+fn place(at: &[Interval; 3], axes: &[[Interval; 3]; 3]) -> String {
+    let three = |v: &[Interval; 3]| {
+        let [x, y, z] = v.map(|x| float(x.mid()));
+        format!("[{x}, {y}, {z}]")
+    };
+    let [x, _, z] = axes.each_ref().map(three);
+    format!("{{ at = {}, z = {z}, x = {x} }}", three(at))
 }
 
 /// Of an angle of two lines that becomes a right one, and is the angle of one of them with the other one reversed: which items

@@ -3,6 +3,7 @@
 use super::check::{check_structure, coincide, collinear};
 use super::draft::{DraftConstraint, DraftObject, check_names, what};
 use super::error::{MAX_NAME, MAX_POINTS, Place};
+use super::joint::Drawn;
 use super::{
     Decimal, DecimalError, Distance, HomotopyChoices, Point, Problem, ProblemError, Target, bend,
     reference,
@@ -41,6 +42,7 @@ pub struct ProblemBuilder {
     lengths: Vec<DraftDistance>,
     squared_lengths: Vec<DraftDistance>,
     pub(super) constraints: Vec<DraftConstraint>,
+    pub(super) drawn: Drawn,
     reference: Option<Vec<String>>,
     bend: Option<Vec<String>>,
     bend_coefficient: Option<Number>,
@@ -114,6 +116,7 @@ impl Problem {
             bend: None,
             bend_coefficient: None,
             detour: None,
+            drawn: Drawn::default(),
             loose: false,
         }
     }
@@ -335,7 +338,8 @@ impl ProblemBuilder {
 
         let distances = self.finished_distances(find)?;
         check_distances(&points, &distances)?;
-        let objects = self.finished_objects(&index_of)?;
+        let mut objects = self.finished_objects(&index_of)?;
+        self.place_bodies(&points, &mut objects)?;
         let constraints = self.finished_constraints(&points, &objects)?;
         let reference = match &self.reference {
             None => None,

@@ -3,7 +3,10 @@
 use super::builder::{Number, ProblemBuilder, check_name, number};
 use super::error::{MAX_NAME, Place};
 use super::formula;
-use super::{AXES, Constraint, Decimal, DecimalError, Item, Object, Point, ProblemError, Shape};
+use super::{
+    AXES, Constraint, Decimal, DecimalError, Item, JointSort, Object, Point, Pose, ProblemError,
+    Shape,
+};
 use crate::constraint::{self, EQUATIONS, KINDS};
 use crate::order::InOrder;
 use crate::statement::nearest;
@@ -16,7 +19,7 @@ pub(super) struct DraftObject {
 }
 
 #[derive(Debug, Clone)]
-enum DraftShape {
+pub(super) enum DraftShape {
     Line([String; 2]),
     FreeLine([Vec<Number>; 2]),
     Plane([String; 3]),
@@ -25,6 +28,7 @@ enum DraftShape {
     Sphere(String, Number),
     Arc([String; 3]),
     Body(Vec<(String, Vec<Number>)>),
+    Joint(JointSort, [String; 2], Box<[Pose; 2]>),
     Number(Number),
 }
 
@@ -38,6 +42,7 @@ impl DraftShape {
             Self::Sphere(..) => ("sphere", Some(3)),
             Self::Arc(_) => ("arc", Some(2)),
             Self::Body(_) => ("body", None),
+            Self::Joint(..) => ("joint", None),
             Self::Number(_) => ("unknown", None),
         }
     }
@@ -180,7 +185,7 @@ impl ProblemBuilder {
         self.constraint(EQUATIONS, [text])
     }
 
-    fn object(mut self, name: &str, shape: DraftShape) -> Self {
+    pub(super) fn object(mut self, name: &str, shape: DraftShape) -> Self {
         self.objects.push(DraftObject {
             name: name.to_owned(),
             shape,
@@ -240,7 +245,8 @@ impl ProblemBuilder {
         // In the order of the tables of a file.
         let mut drafts: Vec<&DraftObject> = self.objects.iter().collect();
         drafts.order_by_key(|draft| draft.shape.order());
-        let drafts = drafts.into_iter().enumerate();
+        let names: Vec<&str> = drafts.iter().map(|draft| &*draft.name).collect();
+        let drafts = drafts.iter().copied().enumerate();
         drafts
             .map(|(index, draft)| {
                 let place = Place::Object(index);
@@ -304,6 +310,19 @@ impl ProblemBuilder {
                         Shape::Body {
                             points: body.0,
                             local: body.1,
+                            place: None,
+                        }
+                    }
+                    DraftShape::Joint(sort, bodies, frames) => {
+                        let body = |name: &String| {
+                            let found = names.iter().position(|other| other == name);
+                            let known = names.iter().copied();
+                            found.ok_or_else(|| unknown(place, &shown, name, known, true))
+                        };
+                        Shape::Joint {
+                            sort: *sort,
+                            bodies: [body(&bodies[0])?, body(&bodies[1])?],
+                            frames: frames.clone(),
                         }
                     }
                     DraftShape::Number(sketch) => Shape::Number {
@@ -316,6 +335,12 @@ impl ProblemBuilder {
                 })
             })
             .collect()
+    }
+
+    /// Whether a constraint fixes what has this name.
+    pub(super) fn is_fixed(&self, name: &str) -> bool {
+        let mut constraints = self.constraints.iter();
+        constraints.any(|c| c.kind == "fixed" && c.items.iter().any(|item| item == name))
     }
 
     /// As many numbers as dimensions; the third is zero in the plane.
@@ -457,6 +482,7 @@ pub(super) fn what(dimension: usize, shape: &Shape) -> &'static str {
         (Shape::Round { .. }, _) => "sphere",
         (Shape::Arc { .. }, _) => "arc",
         (Shape::Body { .. }, _) => "body",
+        (Shape::Joint { .. }, _) => "joint",
         (Shape::Number { .. }, _) => "unknown",
     }
 }
@@ -492,17 +518,24 @@ pub(super) fn check_names(problem: &super::Problem) -> Result<(), ProblemError> 
         let points: Vec<usize> = match &object.shape {
             Shape::Line(points) => points.to_vec(),
             Shape::Plane(points) => points.to_vec(),
-            Shape::FreeLine { .. } | Shape::FreePlane { .. } | Shape::Number { .. } => Vec::new(),
+            Shape::FreeLine { .. }
+            | Shape::FreePlane { .. }
+            | Shape::Number { .. }
+            | Shape::Joint { .. } => Vec::new(),
             Shape::Round { center, .. } => vec![*center],
             Shape::Arc { center, start, end } => vec![*center, *start, *end],
-            Shape::Body { points, local } => {
+            Shape::Body {
+                points,
+                local,
+                place,
+            } => {
                 if points.len() != local.len() {
                     return Err(fault("there are not as many coordinates as points"));
                 }
-                if points.len() < problem.dimension {
+                if place.is_none() && points.len() < problem.dimension {
                     return Err(fault(match problem.dimension {
-                        2 => "a body has at least two points",
-                        _ => "in space a body has at least three points",
+                        2 => "a body without joints has at least two points",
+                        _ => "in space a body without joints has at least three points",
                     }));
                 }
                 points.clone()
@@ -518,15 +551,28 @@ pub(super) fn check_names(problem: &super::Problem) -> Result<(), ProblemError> 
         let flat = |v: &[Decimal; 3]| problem.dimension == 3 || v[2] == Decimal::from(0);
         let all_flat = match &object.shape {
             Shape::FreeLine { point, direction } => flat(point) && flat(direction),
-            Shape::Body { local, .. } => local.iter().all(flat),
+            Shape::Body { local, place, .. } => {
+                local.iter().all(flat) && place.iter().all(|pose| flat(&pose.at) && flat(&pose.x))
+            }
+            Shape::Joint { frames, .. } => frames.iter().all(|f| flat(&f.at) && flat(&f.x)),
             _ => true,
         };
         if !all_flat {
             return Err(fault("its third coordinate must be zero in the plane"));
         }
+        if let Shape::Joint { bodies, .. } = &object.shape {
+            let is_body = |&b: &usize| {
+                let shape = problem.objects.get(b).map(|object| &object.shape);
+                matches!(shape, Some(Shape::Body { place: Some(_), .. }))
+            };
+            if !bodies.iter().all(is_body) || bodies[0] == bodies[1] {
+                return Err(fault("a joint is of two bodies: name two"));
+            }
+        }
         let there = match &object.shape {
             Shape::Plane(_) | Shape::FreePlane { .. } => problem.dimension == 3,
             Shape::Arc { .. } => problem.dimension == 2,
+            Shape::Joint { sort, .. } => problem.dimension == 3 || sort.is_in_plane(),
             _ => true,
         };
         if !there {

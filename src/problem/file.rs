@@ -311,6 +311,9 @@ impl<'a> Reader<'a> {
                 "spheres",
                 "arcs",
                 "bodies",
+                "places",
+                "joints",
+                "robots",
                 "unknowns",
                 "equations",
                 "constraints",
@@ -378,6 +381,13 @@ impl<'a> Reader<'a> {
         }
         problem.parameters = places.parameters;
         Ok((problem, published))
+    }
+
+    /// Whether a file has something beside points to be sought.
+    fn needs_no_points(root: &dyn TableLike) -> bool {
+        ["unknowns", "joints", "robots"]
+            .iter()
+            .any(|table| root.contains_key(table))
     }
 
     fn published(&self, root: &dyn TableLike) -> Result<Vec<Published>, FileError> {
@@ -450,7 +460,7 @@ impl<'a> Reader<'a> {
     ) -> Result<ProblemBuilder, FileError> {
         const EXAMPLE: &str = "[points] and below it a line p1 = [0.0, 0.0, 0.0] for each point";
         let Some((line, item)) = self.get(root, "points") else {
-            return match root.contains_key("unknowns") {
+            return match Self::needs_no_points(root) {
                 true => Ok(builder),
                 false => Err(self.missing("points", EXAMPLE)),
             };
@@ -496,7 +506,10 @@ impl<'a> Reader<'a> {
             "[constraints] and below it distances = [[\"p1\", \"p2\", 1.12], ...]";
         let none = toml_edit::Table::new();
         let table: &dyn TableLike = match self.get(root, "constraints") {
-            None if places.equations.is_empty() => {
+            None if places.equations.is_empty()
+                && !root.contains_key("joints")
+                && !root.contains_key("robots") =>
+            {
                 return Err(self.missing("constraints", EXAMPLE));
             }
             None => &none,

@@ -12,6 +12,7 @@ mod error;
 pub(crate) mod expression;
 mod file;
 mod formula;
+mod joint;
 mod published;
 mod reference;
 mod vocabulary;
@@ -19,8 +20,8 @@ mod write;
 
 pub use crate::decimal::{Decimal, DecimalError};
 pub use crate::statement::{
-    AXES, Atom, Constraint, DEPENDS, Distance, Formula, HomotopyChoices, Item, Object, Point,
-    Problem, Shape, Target, Terms, Tolerances, free_coordinates,
+    AXES, Atom, Constraint, DEPENDS, Distance, Formula, HomotopyChoices, Item, JointSort, Object,
+    Point, Pose, Problem, Shape, Target, Terms, Tolerances, free_coordinates,
 };
 pub(crate) use crate::statement::{counted, list, most_along};
 #[cfg(feature = "explore")]

@@ -78,7 +78,7 @@ pub(super) fn choose(
     };
 
     let bodies = objects.iter().filter_map(|object| match &object.shape {
-        Shape::Body { points, local } => Some((points, local)),
+        Shape::Body { points, local, .. } => Some((points, local)),
         _ => None,
     });
     for (body, local) in bodies.take(1) {

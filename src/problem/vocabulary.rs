@@ -9,8 +9,8 @@ use std::collections::HashSet;
 use toml_edit::{Item, Key, TableLike, Value};
 
 /// The tables of objects.
-pub(super) const TABLES: [&str; 7] = [
-    "lines", "planes", "circles", "spheres", "arcs", "bodies", "unknowns",
+pub(super) const TABLES: [&str; 8] = [
+    "lines", "planes", "circles", "spheres", "arcs", "bodies", "joints", "unknowns",
 ];
 
 /// How an object may be written, by table.
@@ -20,6 +20,7 @@ fn wanted(table: &str) -> &'static str {
         "planes" => "[\"point\", \"point\", \"point\"], or { point = [...], normal = [...] }",
         "circles" | "spheres" => "{ center = \"point\", radius = number }",
         "unknowns" => "a number, where the path begins",
+        "joints" => super::joint::WANTED,
         "arcs" => "{ center = \"point\", start = \"point\", end = \"point\" }",
         _ => "points with their coordinates in the body's own frame, { p1 = [...], p2 = [...] }",
     }
@@ -34,7 +35,25 @@ impl Reader<'_> {
         places: &mut Places,
     ) -> Result<(ProblemBuilder, HashSet<String>), FileError> {
         let mut names = HashSet::new();
+        let robots = self.robots(root)?;
+        let dimension = builder.dimension;
+        builder = self.places_of_bodies(root, dimension, builder)?;
         for table in TABLES {
+            builder = robots.iter().fold(builder, |builder, robot| match table {
+                "bodies" => {
+                    places
+                        .objects
+                        .extend(vec![(table, robot.line); robot.len() + 1]);
+                    robot.add_bodies(builder)
+                }
+                "joints" => {
+                    places
+                        .objects
+                        .extend(vec![(table, robot.line); robot.len()]);
+                    robot.add_joints(builder)
+                }
+                _ => builder,
+            });
             let Some((line, item)) = self.get(root, table) else {
                 continue;
             };
@@ -64,6 +83,9 @@ impl Reader<'_> {
         if table == "unknowns" {
             let value = item.as_value().ok_or_else(wrong)?;
             return Ok(builder.unknown(name, self.number(line, key, value)?));
+        }
+        if table == "joints" {
+            return self.joint(line, key, name, item, builder);
         }
         if item.is_array() {
             let points = self.point_names(line, key, item)?;

@@ -1,6 +1,6 @@
 //! Writing problem files.
 
-use super::{Decimal, Distance, Item, Problem, Shape, Target};
+use super::{Decimal, Distance, Item, Pose, Problem, Shape, Target};
 use crate::constraint::KINDS;
 use std::fmt::Write;
 
@@ -145,7 +145,26 @@ impl Problem {
                         name(end)
                     ),
                     Shape::Number { sketch } => number(sketch),
-                    Shape::Body { points, local } => {
+                    Shape::Joint {
+                        sort,
+                        bodies,
+                        frames,
+                    } => {
+                        let names = bodies.map(|body| quoted(&self.objects[body].name));
+                        let pair = |of: fn(&Pose) -> &[Decimal; 3]| {
+                            let [a, b] = frames.each_ref().map(|frame| all_three(of(frame)));
+                            format!("[{a}, {b}]")
+                        };
+                        format!(
+                            "{{ {} = [{}], at = {}, z = {}, x = {} }}",
+                            sort.key(),
+                            names.join(", "),
+                            pair(|p| &p.at),
+                            pair(|p| &p.z),
+                            pair(|p| &p.x)
+                        )
+                    }
+                    Shape::Body { points, local, .. } => {
                         let members = points.iter().zip(local).map(|(&p, local)| {
                             let key = toml_edit::Key::new(&self.points[p].name);
                             format!("{key} = {}", numbers(local))
@@ -155,6 +174,28 @@ impl Problem {
                 };
                 writeln!(out, "{} = {text}", toml_edit::Key::new(&object.name))?;
             }
+        }
+        let placed = self
+            .objects
+            .iter()
+            .filter_map(|object| match &object.shape {
+                Shape::Body {
+                    place: Some(pose), ..
+                } => Some((&object.name, pose)),
+                _ => None,
+            });
+        for (index, (name, pose)) in placed.enumerate() {
+            if index == 0 {
+                writeln!(out, "\n[places]")?;
+            }
+            writeln!(
+                out,
+                "{} = {{ at = {}, z = {}, x = {} }}",
+                toml_edit::Key::new(name),
+                all_three(&pose.at),
+                all_three(&pose.z),
+                all_three(&pose.x)
+            )?;
         }
         Ok(())
     }
@@ -170,6 +211,11 @@ fn write_list(out: &mut String, key: &str, entries: Vec<String>) -> std::fmt::Re
         writeln!(out, "    {entry},")?;
     }
     writeln!(out, "]")
+}
+
+fn all_three(of: &[Decimal; 3]) -> String {
+    let numbers: Vec<String> = of.iter().map(number).collect();
+    format!("[{}]", numbers.join(", "))
 }
 
 fn quoted(text: &str) -> String {

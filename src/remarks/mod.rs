@@ -114,7 +114,10 @@ fn points_of(shape: &Shape) -> Vec<usize> {
         Shape::Round { center, .. } => vec![*center],
         Shape::Arc { center, start, end } => vec![*center, *start, *end],
         Shape::Body { points, .. } => points.clone(),
-        Shape::FreeLine { .. } | Shape::FreePlane { .. } | Shape::Number { .. } => Vec::new(),
+        Shape::FreeLine { .. }
+        | Shape::FreePlane { .. }
+        | Shape::Number { .. }
+        | Shape::Joint { .. } => Vec::new(),
     }
 }
 

@@ -3,6 +3,7 @@
 use super::JSON_VERSION;
 use super::certain_digits;
 use super::drawing::{Drawing, names};
+use super::table::write_joints;
 use crate::blocks::{Account, Why};
 use crate::edit::{
     Alone, Decomposition, Dimension, Drag, Dragged, Edited, Ending, Limit, Moved, Session,
@@ -10,7 +11,8 @@ use crate::edit::{
 use crate::interval::Interval;
 use crate::interval::vector::length;
 use crate::order::InOrder;
-use crate::problem::{Decimal, Problem, Shape, counted, list};
+use crate::problem::{Decimal, Object, Problem, Shape, counted, list};
+use crate::system::Located;
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
 
@@ -305,7 +307,7 @@ fn write_edit(
     };
     writeln!(out, "\n{what}")?;
     write_points(out, problem, &edited.points)?;
-    write_numbers(out, problem, &edited.numbers)?;
+    write_numbers(out, problem, &edited.objects)?;
     writeln!(
         out,
         "\nEvery coordinate differs from the exact one by at most 1 in its last digit shown."
@@ -484,9 +486,12 @@ pub fn edit_to_value(problem: &Problem, edited: &Edited, moved: Moved) -> Value 
             "reason": dragged.stop.as_ref().map(|stop| &stop.text),
         });
     }
-    let unknowns = numbers_to_value(problem, &edited.numbers, true, middle);
+    let unknowns = numbers_to_value(problem, &edited.objects, true, middle);
     if unknowns.as_object().is_some_and(|all| !all.is_empty()) {
         value["unknowns"] = unknowns;
+    }
+    if let Some(joints) = joints_to_value(problem, &edited.objects, middle) {
+        value["joints"] = joints;
     }
     value
 }
@@ -502,7 +507,7 @@ pub fn edit_to_document(problem: &Problem, edited: &Edited, session: &Session) -
     let mut value = edit_to_value(problem, edited, session.moved());
     // The session's figure is the new one where that was reached.
     if edited.ending == Ending::Reached {
-        value["radii"] = numbers_to_value(problem, &session.numbers(), false, middle);
+        value["radii"] = numbers_to_value(problem, &session.objects(), false, middle);
     }
     Drawing::in_place("edit", problem).with(value)
 }
@@ -642,35 +647,78 @@ fn left_out(account: &Account) -> (Vec<String>, Vec<String>) {
     (names(Why::Follows), names(Why::NothingNew))
 }
 
+/// Objects that are not told by their points, with what they have of their own: circles, unknown numbers, bodies with joints, joints.
+fn own<'a>(
+    problem: &'a Problem,
+    objects: &'a [Located],
+) -> impl Iterator<Item = (&'a Object, &'a Located)> {
+    let all = problem.objects.iter().zip(objects);
+    all.filter(|(object, at)| match at {
+        Located::Pose { .. } | Located::Joint { .. } | Located::Number(_) => true,
+        _ => matches!(object.shape, Shape::Round { .. }),
+    })
+}
+
 /// The radii of circles, or the values of unknown numbers, by name, each as `number` has it.
 pub(super) fn numbers_to_value(
     problem: &Problem,
-    numbers: &[Option<Interval>],
+    objects: &[Located],
     are_unknowns: bool,
     number: impl Fn(Interval) -> Value,
 ) -> Value {
-    let objects = problem.objects.iter().zip(numbers);
+    let objects = own(problem, objects);
     let objects = objects.filter(|(o, _)| matches!(o.shape, Shape::Number { .. }) == are_unknowns);
     let all: Map<String, Value> = objects
-        .filter_map(|(object, x)| Some((object.name.clone(), number((*x)?))))
+        .filter_map(|(object, at)| Some((object.name.clone(), number(at.number()?))))
         .collect();
     Value::Object(all)
 }
 
-/// The radii of circles and the values of unknown numbers, a line each.
+/// Bodies with joints and joints, by name, each as `number` has it.
+pub(super) fn joints_to_value(
+    problem: &Problem,
+    objects: &[Located],
+    number: impl Fn(Interval) -> Value,
+) -> Option<Value> {
+    let three = |x: &[Interval; 3]| -> Value {
+        let numbers = x[..problem.dimension].iter().map(|&x| number(x));
+        Value::Array(numbers.collect())
+    };
+    let all: Map<String, Value> = own(problem, objects)
+        .filter_map(|(object, at)| {
+            let told: Map<String, Value> = match at {
+                Located::Pose { at, axes } => {
+                    let axes = ["x", "y", "z"]
+                        .into_iter()
+                        .zip(axes)
+                        .take(problem.dimension);
+                    let all = [("at", at)].into_iter().chain(axes);
+                    all.map(|(name, v)| (name.to_owned(), three(v))).collect()
+                }
+                Located::Joint { turn, travel } => [("turn", turn), ("travel", travel)]
+                    .into_iter()
+                    .filter_map(|(name, x)| Some((name.to_owned(), number((*x)?))))
+                    .collect(),
+                _ => return None,
+            };
+            Some((object.name.clone(), Value::Object(told)))
+        })
+        .collect();
+    (!all.is_empty()).then_some(Value::Object(all))
+}
+
+/// The radii of circles, the values of unknown numbers, bodies with joints and joints, a line each.
 pub(super) fn write_numbers(
     out: &mut String,
     problem: &Problem,
-    numbers: &[Option<Interval>],
+    objects: &[Located],
 ) -> std::fmt::Result {
-    for (object, number) in problem.objects.iter().zip(numbers) {
-        let Some(number) = number.map(certain_digits) else {
-            continue;
-        };
-        match object.shape {
-            Shape::Number { .. } => writeln!(out, "  {} = {number}", object.name)?,
-            _ => writeln!(out, "  {}: radius {number}", object.name)?,
+    for (object, at) in own(problem, objects) {
+        match (&object.shape, at.number().map(certain_digits)) {
+            (Shape::Number { .. }, Some(number)) => writeln!(out, "  {} = {number}", object.name)?,
+            (_, Some(number)) => writeln!(out, "  {}: radius {number}", object.name)?,
+            (_, None) => {}
         }
     }
-    Ok(())
+    write_joints(out, problem, objects, &|x| certain_digits(*x))
 }

@@ -1,7 +1,9 @@
 //! The figures of a sketch in its own frame, as its blocks give them.
 
 use super::drawing::Drawing;
-use super::edit::{bounds, numbers_to_value, points_to_value, write_numbers, write_points};
+use super::edit::{
+    bounds, joints_to_value, numbers_to_value, points_to_value, write_numbers, write_points,
+};
 use super::supposed::supposed;
 use crate::blocks::{BlockAccount, Chosen, Comparison, Figures, First, Sense, Way};
 use crate::problem::Shape;
@@ -244,7 +246,15 @@ fn write_figures(out: &mut String, figures: &Figures, listed: Listed) -> std::fm
     let problem = figures.problem();
     let count = figures.count().unwrap_or(u64::MAX);
     let circles = problem.objects.iter();
-    let circles = circles.filter(|o| matches!(o.shape, Shape::Round { .. } | Shape::Number { .. }));
+    let circles = circles.filter(|o| {
+        matches!(
+            o.shape,
+            Shape::Round { .. }
+                | Shape::Number { .. }
+                | Shape::Joint { .. }
+                | Shape::Body { place: Some(_), .. }
+        )
+    });
     let each = (problem.points.len() + circles.count()) as u64 + 2;
     let some = match count.saturating_mul(each) <= LINES as u64 {
         true => count,
@@ -255,9 +265,9 @@ fn write_figures(out: &mut String, figures: &Figures, listed: Listed) -> std::fm
         let chosen = chosen_in_words(&figures.chosen(number));
         writeln!(out, "\nFigure {}{chosen}", number + 1)?;
         write_senses(out, figures, number)?;
-        let (points, numbers) = figures.figure(number);
+        let (points, objects) = figures.figure(number);
         write_points(out, problem, &points)?;
-        write_numbers(out, problem, &numbers)?;
+        write_numbers(out, problem, &objects)?;
     }
     if !matches!(listed, Listed::Only(_)) && count > numbers.end {
         writeln!(
@@ -378,7 +388,7 @@ pub fn figures_to_value(figures: &Figures, listed: Listed) -> Value {
     let count = figures.count();
     let numbers = listed.numbers(count.unwrap_or(u64::MAX), IN_JSON);
     let of_number = |number: u64| {
-        let (points, numbers) = figures.figure(number);
+        let (points, objects) = figures.figure(number);
         let chosen = figures.chosen(number);
         let chosen = chosen
             .iter()
@@ -387,12 +397,15 @@ pub fn figures_to_value(figures: &Figures, listed: Listed) -> Value {
             "number": number,
             "choices": chosen.collect::<Vec<_>>(),
             "points": points_to_value(problem, &points),
-            "radii": numbers_to_value(problem, &numbers, false, bounds),
+            "radii": numbers_to_value(problem, &objects, false, bounds),
             "senses": senses_to_value(figures, number),
         });
-        let unknowns = numbers_to_value(problem, &numbers, true, bounds);
+        let unknowns = numbers_to_value(problem, &objects, true, bounds);
         if unknowns.as_object().is_some_and(|all| !all.is_empty()) {
             value["unknowns"] = unknowns;
+        }
+        if let Some(joints) = joints_to_value(problem, &objects, bounds) {
+            value["joints"] = joints;
         }
         value
     };

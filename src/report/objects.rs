@@ -20,6 +20,8 @@ enum At<C> {
     Plane { point: [C; 3], normal: [C; 3] },
     Round { center: [C; 3], radius: C },
     Number(C),
+    Pose { at: [C; 3], axes: [[C; 3]; 3] },
+    Joint { turn: Option<C>, travel: Option<C> },
 }
 
 impl<'a, C: Coordinate> Objects<'a, C> {
@@ -41,6 +43,14 @@ impl<'a, C: Coordinate> Objects<'a, C> {
                     radius: number(radius),
                 },
                 Located::Number(value) => At::Number(number(value)),
+                Located::Pose { at, axes } => At::Pose {
+                    at: three(at),
+                    axes: axes.each_ref().map(three),
+                },
+                Located::Joint { turn, travel } => At::Joint {
+                    turn: turn.as_ref().map(&number),
+                    travel: travel.as_ref().map(&number),
+                },
                 Located::Body => return None,
             })
         };
@@ -85,7 +95,11 @@ impl<'a> Objects<'a, f64> {
                     radius: square.sqrt(),
                 }
             }
-            Shape::Body { .. } => Located::Body,
+            Shape::Body {
+                place: Some(pose), ..
+            } => Located::posed(pose),
+            // What it measures there the sketch does not say.
+            Shape::Body { .. } | Shape::Joint { .. } => Located::Body,
             Shape::Number { sketch } => Located::Number(enclose(sketch)),
         });
         let objects: Vec<Located> = objects.collect();
@@ -119,6 +133,20 @@ impl<C: Coordinate> Serialize for Written<'_, C> {
             At::Plane { point, normal } => {
                 map.serialize_entry("point", &place(point))?;
                 map.serialize_entry("normal", &place(normal))?;
+            }
+            At::Pose { at, axes } => {
+                map.serialize_entry("at", &place(at))?;
+                for (name, axis) in ["x", "y", "z"].into_iter().zip(axes).take(self.0) {
+                    map.serialize_entry(name, &place(axis))?;
+                }
+            }
+            At::Joint { turn, travel } => {
+                if let Some(turn) = turn {
+                    map.serialize_entry("turn", &turn.written())?;
+                }
+                if let Some(travel) = travel {
+                    map.serialize_entry("travel", &travel.written())?;
+                }
             }
             At::Number(value) => map.serialize_entry("value", &value.written())?,
             At::Round { center, radius } => {

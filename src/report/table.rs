@@ -437,6 +437,45 @@ pub(super) fn write_objects(
             _ => {}
         }
     }
+    write_joints(out, problem, objects, &digits)
+}
+
+/// Joints and the bodies between them that move, a line each: `digits` has a number as text.
+pub(super) fn write_joints(
+    out: &mut String,
+    problem: &Problem,
+    objects: &[Located],
+    digits: &dyn Fn(&Interval) -> String,
+) -> fmt::Result {
+    let place = |x: &[Interval; 3]| {
+        let all: Vec<String> = x[..problem.dimension].iter().map(digits).collect();
+        format!("({})", all.join(", "))
+    };
+    for (object, at) in problem.objects.iter().zip(objects) {
+        if let Located::Joint { turn, travel } = at {
+            let turn = turn
+                .as_ref()
+                .map(|x| format!("turned by {} degrees", digits(x)));
+            let travel = travel
+                .as_ref()
+                .map(|x| format!("drawn out by {}", digits(x)));
+            let told: Vec<String> = turn.into_iter().chain(travel).collect();
+            if !told.is_empty() {
+                writeln!(out, "  joint {}: {}", object.name, told.join(", "))?;
+            }
+        }
+    }
+    let standing = problem.standing_bodies();
+    for (index, (object, at)) in problem.objects.iter().zip(objects).enumerate() {
+        if let (Located::Pose { at, axes }, false) = (at, standing.contains(&index)) {
+            let [x, _, z] = axes.each_ref().map(place);
+            let turned = match problem.dimension {
+                2 => format!("x axis {x}"),
+                _ => format!("x axis {x}, z axis {z}"),
+            };
+            writeln!(out, "  body {}: at {}, {turned}", object.name, place(at))?;
+        }
+    }
     Ok(())
 }
 

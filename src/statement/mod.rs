@@ -7,10 +7,12 @@ use num_rational::BigRational;
 use std::collections::BTreeMap;
 
 mod formula;
+mod joint;
 mod names;
 mod object;
 
 pub use formula::{Atom, Formula, Terms};
+pub use joint::{JointSort, Pose};
 pub use names::DEPENDS;
 pub(crate) use names::{counted, list, nearest};
 pub(crate) use object::most_along;

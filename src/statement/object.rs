@@ -1,11 +1,11 @@
 //! Objects beside points, and constraints beside distances, as plain data. What they mean is said in
 //! [`crate::constraint`].
 
-use super::{Formula, Problem};
+use super::{Formula, JointSort, Pose, Problem};
 use crate::decimal::Decimal;
 use num_traits::Signed;
 
-/// A line, plane, circle, sphere, arc, rigid body, or an unknown number.
+/// A line, plane, circle, sphere, arc, rigid body, joint, or an unknown number.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Object {
     /// The name used in constraints and results; no point has it.
@@ -15,7 +15,8 @@ pub struct Object {
 }
 
 impl Object {
-    /// What people call it, in a problem of that dimension: `line`, `plane`, `circle`, `sphere`, `arc`, `body` or `unknown`.
+    /// What people call it, in a problem of that dimension: `line`, `plane`, `circle`, `sphere`, `arc`, `body`, `joint` or
+    /// `unknown`.
     pub fn kind(&self, dimension: usize) -> &'static str {
         match &self.shape {
             Shape::Line(_) | Shape::FreeLine { .. } => "line",
@@ -24,6 +25,7 @@ impl Object {
             Shape::Round { .. } => "sphere",
             Shape::Arc { .. } => "arc",
             Shape::Body { .. } => "body",
+            Shape::Joint { .. } => "joint",
             Shape::Number { .. } => "unknown",
         }
     }
@@ -34,7 +36,10 @@ impl Object {
         match &self.shape {
             Shape::Line(points) => points.to_vec(),
             Shape::Plane(points) => points.to_vec(),
-            Shape::FreeLine { .. } | Shape::FreePlane { .. } | Shape::Number { .. } => Vec::new(),
+            Shape::FreeLine { .. }
+            | Shape::FreePlane { .. }
+            | Shape::Number { .. }
+            | Shape::Joint { .. } => Vec::new(),
             Shape::Round { center, .. } => vec![*center],
             Shape::Arc { center, start, end } => vec![*center, *start, *end],
             Shape::Body { points, .. } => points.clone(),
@@ -119,6 +124,17 @@ pub enum Shape {
         points: Vec<usize>,
         /// Their coordinates in the body's own frame, in the same order.
         local: Vec<[Decimal; 3]>,
+        /// Where the body's frame is in the sketch, of one with joints.
+        place: Option<Box<Pose>>,
+    },
+    /// What is left of the motion of one body beside another.
+    Joint {
+        /// What is left.
+        sort: JointSort,
+        /// The bodies, indices into [`Problem::objects`].
+        bodies: [usize; 2],
+        /// The joint's frame in that of either body.
+        frames: Box<[Pose; 2]>,
     },
     /// A number that is sought, for equations of one's own.
     Number {
@@ -209,6 +225,28 @@ impl Problem {
     /// those out.
     pub fn is_absolute(&self) -> bool {
         self.homotopy.reference.is_empty()
+    }
+
+    /// Whether there are bodies with joints, of which one stands still.
+    pub fn has_joints(&self) -> bool {
+        let mut objects = self.objects.iter();
+        objects.any(|o| matches!(o.shape, Shape::Body { place: Some(_), .. }))
+    }
+
+    /// Bodies with joints that stay where the sketch has them: those that are `fixed`, and if there is none, the first.
+    pub fn standing_bodies(&self) -> Vec<usize> {
+        let bodies = self.objects.iter().enumerate();
+        let bodies = bodies.filter(|(_, o)| matches!(o.shape, Shape::Body { place: Some(_), .. }));
+        let all: Vec<usize> = bodies.map(|(index, _)| index).collect();
+        let is_fixed = |body: usize| {
+            let mut constraints = self.constraints.iter();
+            constraints.any(|c| c.kind == "fixed" && c.items.contains(&Item::Object(body)))
+        };
+        let fixed: Vec<usize> = all.iter().copied().filter(|&b| is_fixed(b)).collect();
+        match fixed.is_empty() {
+            true => all.into_iter().take(1).collect(),
+            false => fixed,
+        }
     }
 
     /// Index of the distance that bends, if one does.

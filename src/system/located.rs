@@ -1,10 +1,11 @@
 //! Where lines, planes, circles, spheres and arcs are in a figure.
 
 use super::Homotopy;
-use crate::constraint::Entry;
-use crate::interval::{Interval, hull, point};
+use crate::constraint::{Entry, Form, Posed};
+use crate::interval::{Interval, angle::direction, enclose, hull, point};
 use crate::places::{Each as _, array};
-use crate::problem::Shape;
+use crate::problem::{Decimal, JointSort, Pose, Shape};
+use std::collections::HashMap;
 
 /// Where an object is in a figure, enclosed: in the coordinates and the unit of the figure's points. In the plane third
 /// coordinates are zero.
@@ -35,11 +36,34 @@ pub enum Located {
     },
     /// A rigid body, which is where its points are.
     Body,
+    /// A body with joints: its frame.
+    Pose {
+        /// The origin.
+        at: [Interval; 3],
+        /// Its axes, unit vectors.
+        axes: [[Interval; 3]; 3],
+    },
+    /// A joint.
+    Joint {
+        /// By how many degrees the second body's x axis is turned from the first one's, counter-clockwise as seen from the tip of z; of joints with
+        /// one axis.
+        turn: Option<Interval>,
+        /// How far the origin of the second body's frame of the joint is along z of the first one's, in the plane along x.
+        travel: Option<Interval>,
+    },
     /// An unknown number.
     Number(Interval),
 }
 
 impl Located {
+    /// The radius of a circle, sphere or arc, or the value of an unknown number.
+    pub fn number(&self) -> Option<Interval> {
+        match *self {
+            Located::Round { radius: number, .. } | Located::Number(number) => Some(number),
+            _ => None,
+        }
+    }
+
     /// The line through a place, along a vector.
     pub fn line(point: [Interval; 3], along: [Interval; 3]) -> Self {
         Located::Line {
@@ -53,6 +77,15 @@ impl Located {
         Located::Plane {
             point,
             normal: unit_vector(normal),
+        }
+    }
+
+    /// A body with joints whose frame is given.
+    pub fn posed(pose: &Pose) -> Self {
+        let three = |v: &[Decimal; 3]| v.each_ref().each(enclose);
+        Located::Pose {
+            at: three(&pose.at),
+            axes: axes_of(pose),
         }
     }
 
@@ -70,37 +103,139 @@ impl Homotopy {
         points: &[[Interval; 3]],
         unknown: impl Fn(usize) -> Interval,
     ) -> Vec<Located> {
-        let unit = point(self.unit);
         let value = |entry: Entry| self.entry(entry).map_or(point(0.0), &unknown);
-        let three = |entries: &[Entry]| -> [Interval; 3] {
-            array(|k| entries.get(k).map_or(point(0.0), |&entry| value(entry)))
-        };
-        let objects = self.shapes.iter().zip(&self.tail.objects);
-        objects
-            .map(|(shape, own)| match shape {
-                Shape::Line([a, b]) => Located::line(points[*a], minus(&points[*b], &points[*a])),
-                Shape::FreeLine { .. } => {
-                    let (base, along) = own.split_at(self.dimension);
-                    Located::line(three(base).map(|x| x * unit), three(along))
-                }
-                Shape::Plane([a, b, c]) => {
-                    let [u, v] = [b, c].map(|&p| minus(&points[p], &points[*a]));
-                    Located::plane_along(points[*a], u, v)
-                }
-                Shape::FreePlane { .. } => {
-                    let normal = three(&own[..3]);
-                    let square = normal.iter().fold(point(0.0), |sum, x| sum + x.sqr());
-                    let level = value(own[3]) / square;
-                    Located::plane(normal.map(|x| x * level * unit), normal)
-                }
-                Shape::Round { center, .. } | Shape::Arc { center, .. } => Located::Round {
-                    center: points[*center],
-                    radius: value(own[0]) * unit,
+        let told = (&self.tail.objects[..], &self.tail.poses[..]);
+        let shapes: Vec<&Shape> = self.shapes.iter().collect();
+        locate(&shapes, told, (self.dimension, self.unit), points, value)
+    }
+}
+
+/// Where objects are in a figure, of which `points` are in the unit of the problem and `value` has the unknowns in a `unit` of length; by the
+/// unknowns that each has of its own ([`crate::constraint::Tail`]).
+pub fn locate(
+    shapes: &[&Shape],
+    (own, poses): (&[Vec<Entry>], &[Posed]),
+    (dimension, unit): (usize, f64),
+    points: &[[Interval; 3]],
+    value: impl Fn(Entry) -> Interval,
+) -> Vec<Located> {
+    let unit = point(unit);
+    let three = |entries: &[Entry]| -> [Interval; 3] {
+        array(|k| entries.get(k).map_or(point(0.0), |&entry| value(entry)))
+    };
+    let poses: HashMap<usize, [[Interval; 3]; 4]> = poses
+        .iter()
+        .map(|posed| (posed.body, pose_of(posed, unit, &value)))
+        .collect();
+    let objects = shapes.iter().zip(own).enumerate();
+    objects
+        .map(|(index, (shape, own))| match shape {
+            Shape::Line([a, b]) => Located::line(points[*a], minus(&points[*b], &points[*a])),
+            Shape::FreeLine { .. } => {
+                let (base, along) = own.split_at(dimension);
+                Located::line(three(base).map(|x| x * unit), three(along))
+            }
+            Shape::Plane([a, b, c]) => {
+                let [u, v] = [b, c].map(|&p| minus(&points[p], &points[*a]));
+                Located::plane_along(points[*a], u, v)
+            }
+            Shape::FreePlane { .. } => {
+                let normal = three(&own[..3]);
+                let square = normal.iter().fold(point(0.0), |sum, x| sum + x.sqr());
+                let level = value(own[3]) / square;
+                Located::plane(normal.map(|x| x * level * unit), normal)
+            }
+            Shape::Round { center, .. } | Shape::Arc { center, .. } => Located::Round {
+                center: points[*center],
+                radius: value(own[0]) * unit,
+            },
+            Shape::Body { .. } => match poses.get(&index) {
+                Some(&[at, x, y, z]) => Located::Pose {
+                    at,
+                    axes: [x, y, z],
                 },
-                Shape::Body { .. } => Located::Body,
-                Shape::Number { .. } => Located::Number(value(own[0])),
-            })
-            .collect()
+                None => Located::Body,
+            },
+            Shape::Joint {
+                sort,
+                bodies,
+                frames,
+            } => {
+                let bodies = bodies.map(|body| &poses[&body]);
+                joint_of(dimension, *sort, bodies, frames)
+            }
+            Shape::Number { .. } => Located::Number(value(own[0])),
+        })
+        .collect()
+}
+
+/// The origin of a body with joints and its axes. `value`: of an unknown.
+fn pose_of(posed: &Posed, unit: Interval, value: impl Fn(Entry) -> Interval) -> [[Interval; 3]; 4] {
+    let form = |form: &Form| match *form {
+        Form::One => point(1.0),
+        Form::Difference(a, b) => value(a) - value(b),
+    };
+    let at = match posed.origin {
+        Ok(entries) => entries.each(|entry| value(entry) * unit),
+        Err(at) => at,
+    };
+    let along: Vec<[Interval; 3]> = posed
+        .along
+        .iter()
+        .map(|forms| forms.each_ref().each(form))
+        .collect();
+    let basis = match along[..] {
+        [] => array(|i| array(|k| point(f64::from(u8::from(i == k))))),
+        [e] => [
+            e,
+            [-e[1], e[0], point(0.0)],
+            array(|k| point(f64::from(u8::from(k == 2)))),
+        ],
+        [e, f, ..] => [e, f, cross(&e, &f)],
+    };
+    let out = |axis: &[Interval; 3]| -> [Interval; 3] {
+        array(|k| (0..3).fold(point(0.0), |sum, i| sum + axis[i] * basis[i][k]))
+    };
+    let [x, y, z] = posed.axes.each_ref().map(out);
+    [at, x, y, z]
+}
+
+/// The axes of a frame.
+fn axes_of(pose: &Pose) -> [[Interval; 3]; 3] {
+    let [z, x] = [&pose.z, &pose.x].map(|v| v.each_ref().each(enclose));
+    let y = cross(&z, &x);
+    [cross(&y, &z), y, z].map(unit_vector)
+}
+
+/// What a joint measures, by the poses of its bodies.
+fn joint_of(
+    dimension: usize,
+    sort: JointSort,
+    bodies: [&[[Interval; 3]; 4]; 2],
+    frames: &[Pose; 2],
+) -> Located {
+    let [first, second] = [0, 1].map(|side| {
+        let (pose, frame) = (bodies[side], &frames[side]);
+        let out = |v: &[Interval; 3]| -> [Interval; 3] {
+            array(|k| (0..3).fold(point(0.0), |sum, i| sum + v[i] * pose[1 + i][k]))
+        };
+        let at = out(&frame.at.each_ref().each(enclose));
+        let axes = axes_of(frame).each_ref().map(out);
+        let origin: [Interval; 3] = array(|k| pose[0][k] + at[k]);
+        (origin, axes)
+    });
+    let dot =
+        |a: &[Interval; 3], b: &[Interval; 3]| (0..3).fold(point(0.0), |s, k| s + a[k] * b[k]);
+    let [x, y, z] = &first.1;
+    let turn = || {
+        let other = &second.1[0];
+        direction(dot(x, other), dot(y, other))
+    };
+    let apart = minus(&second.0, &first.0);
+    let along = if dimension == 2 { x } else { z };
+    Located::Joint {
+        turn: sort.turns().then(turn),
+        travel: (sort.travels() || sort == JointSort::Planar).then(|| dot(&apart, along)),
     }
 }
 

@@ -26,7 +26,7 @@ pub use heights::Heights;
 pub(crate) use homotopy::typical_length;
 pub use homotopy::{Edge, Homotopy, Term};
 pub use interpolation::Length;
-pub use located::Located;
+pub use located::{Located, locate};
 pub use part::{Beside, Part};
 pub use quantity::{Quantity, WHOLE_TURN};
 pub use right::Right;

@@ -4,6 +4,7 @@
 use krawl::edit::{End, Ending, Session, Setting, rewrite};
 use krawl::import::{self, Figure, Imported};
 use krawl::problem::{Decimal, Problem, Shape};
+use krawl::system::Located;
 use krawl::track::{Control, StopKind};
 use std::path::PathBuf;
 
@@ -44,9 +45,9 @@ impl File {
         let setting = [Setting::parse(&self.problem, set).unwrap()];
         let edited = session.edit(&setting);
         assert_eq!(edited.ending, Ending::Reached, "{}: {set}", self.name);
-        let (points, numbers) = (session.figure(), session.numbers());
-        let numbers: Vec<Option<f64>> = numbers.iter().map(|x| x.map(|x| x.mid())).collect();
-        let radii: Vec<f64> = numbers.iter().map(|x| x.unwrap_or(0.0)).collect();
+        let (points, objects) = (session.figure(), session.objects());
+        let radius = |object: &Located| object.number().map_or(0.0, |radius| radius.mid());
+        let radii: Vec<f64> = objects.iter().map(radius).collect();
         let mut changed = self.problem.clone();
         setting[0].apply(&mut changed);
         let bytes = match &self.imported {
@@ -59,7 +60,7 @@ impl File {
             }
             None => {
                 let text = std::str::from_utf8(&self.bytes).unwrap();
-                rewrite(text, &changed, &points, &numbers)
+                rewrite(text, &changed, &points, &objects)
                     .unwrap()
                     .into_bytes()
             }

@@ -3,6 +3,7 @@
 use krawl::edit::{Decomposition, Edited, Ending, Session, Setting};
 use krawl::import::{self, Figure, Imported};
 use krawl::problem::Problem;
+use krawl::system::Located;
 
 const BRACKET: &str = "problems/sketches/bracket.slvs";
 const PARTS: &str = "problems/sketches/parts.FCStd";
@@ -18,8 +19,9 @@ fn edit(session: &mut Session, text: &str) -> Edited {
 }
 
 fn rewritten(sketch: &Imported, bytes: &[u8], session: &Session) -> Vec<u8> {
-    let (points, numbers) = (session.figure(), session.numbers());
-    let radii: Vec<f64> = numbers.iter().map(|x| x.map_or(0.0, |x| x.mid())).collect();
+    let (points, objects) = (session.figure(), session.objects());
+    let radius = |object: &Located| object.number().map_or(0.0, |radius| radius.mid());
+    let radii: Vec<f64> = objects.iter().map(radius).collect();
     let figure = Figure {
         points: &points,
         radii: &radii,

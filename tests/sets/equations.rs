@@ -134,7 +134,7 @@ fn blocks_take_both_roots_of_a_number() {
     assert_eq!(found.len(), 4);
     for number in 0..4 {
         let (_, numbers) = figures.figure(number);
-        let numbers: Vec<f64> = numbers.iter().map(|x| x.unwrap().mid()).collect();
+        let numbers: Vec<f64> = numbers.iter().map(|x| x.number().unwrap().mid()).collect();
         assert!(found.iter().any(|one| near(one, &numbers)), "{numbers:?}");
     }
 }
@@ -209,7 +209,11 @@ fn parameters_are_dimensions() {
     let setting = Setting::parse(&problem, "a=6.25").unwrap();
     let edited = session.edit(&[setting]);
     assert_eq!(edited.ending, Ending::Reached);
-    let numbers: Vec<f64> = edited.numbers.iter().map(|x| x.unwrap().mid()).collect();
+    let numbers: Vec<f64> = edited
+        .objects
+        .iter()
+        .map(|x| x.number().unwrap().mid())
+        .collect();
     // (x + y)² = 8.25, (x − y)² = 4.25, x the greater as it was.
     let (sum, difference) = (8.25f64.sqrt(), 4.25f64.sqrt());
     let wanted = [(sum + difference) / 2.0, (sum - difference) / 2.0, 6.25];

@@ -27,6 +27,7 @@ use super::{Account, Verdict};
 use crate::interval::{Interval, point};
 use crate::places::array;
 use crate::problem::Problem;
+use crate::system::Located;
 use crate::track::{Control, Options};
 use parts::{may_be_reversed, parts_of, vanishes, verdict};
 use search::Search;
@@ -380,11 +381,11 @@ impl Figures {
         values
     }
 
-    /// The boxes of all points of a figure, in the problem's own coordinates, and the radii of circles and values of unknown numbers by object.
+    /// The boxes of all points of a figure, in the problem's own coordinates, and where its objects are.
     ///
     /// # Panics
     /// If there are not so many figures.
-    pub fn figure(&self, number: u64) -> (Vec<[Interval; 3]>, Vec<Option<Interval>>) {
+    pub fn figure(&self, number: u64) -> (Vec<[Interval; 3]>, Vec<Located>) {
         let values = self.values(number);
         let d = self.cut.problem.dimension;
         let at = |u: usize| {
@@ -397,7 +398,9 @@ impl Figures {
                 false => point(0.0),
             })
         });
-        let numbers = self.cut.numbers.iter().map(|u| u.map(at));
-        (points.collect(), numbers.collect())
+        let points: Vec<[Interval; 3]> = points.collect();
+        let (problem, told) = (&self.cut.problem, &self.cut.told);
+        let objects = self.cut.system.locate(problem, told, &points, 1.0, at);
+        (points, objects)
     }
 }

@@ -1,4 +1,4 @@
-//! `fixed`: a point stays where the sketch has it; so do a line, plane, circle or sphere.
+//! `fixed`: a point stays where the sketch has it; so do a line, plane, circle, sphere or body with joints.
 //!
 //! Of points, and of the points that a line or plane goes through, all coordinates are held; of a line of its own those of
 //! its direction and of its place but for the axis to which it comes nearest, which its own equations then give; of a
@@ -17,11 +17,11 @@ impl Kind for Fixed {
     }
 
     fn meaning(&self) -> &'static str {
-        "a point, line, plane, circle or sphere stays where the sketch has it"
+        "a point, line, plane, circle, sphere or body with joints stays where the sketch has it"
     }
 
     fn takes(&self) -> &'static str {
-        "a point, a line, a plane, a circle or a sphere"
+        "a point, a line, a plane, a circle, a sphere or a body"
     }
 
     fn fixes(&self, problem: &Problem, of: &Constraint) -> Fixes {
@@ -73,6 +73,10 @@ impl Kind for Fixed {
                     }
                 }
             },
+            // It has no unknowns.
+            Sort::Body => {
+                of.items.body()?;
+            }
             Sort::Round => {
                 let object = of.items.round()?;
                 let center = match low.problem.objects[object].shape {

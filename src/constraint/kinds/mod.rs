@@ -20,6 +20,7 @@ mod same_angle;
 mod same_distance;
 mod symmetric;
 mod tangent;
+mod travel;
 mod turn;
 mod value;
 
@@ -33,6 +34,7 @@ pub const KINDS: &[&dyn Kind] = &[
     &distance::Distances,
     &angle::Angles,
     &turn::Turns,
+    &travel::Travels,
     &radius::RADII,
     &radius::DIAMETERS,
     &position::POSITIONS[0],

@@ -1,4 +1,4 @@
-//! `turns`: angles in the plane with their sense, which may be any number of degrees.
+//! `turns`: angles in the plane, and of joints, with their sense, which may be any number of degrees.
 //!
 //! The cosine and the sine go from those of the sketch to those of the angle on a curve round 0 (`lowering/turn.rs`), so that an edit by 250
 //! or by −400 degrees turns as far, and that way round.
@@ -16,11 +16,11 @@ impl Kind for Turns {
 
     fn meaning(&self) -> &'static str {
         "by how many degrees the leg to the first of three points, or the first of two lines from its first end to its second, is \
-         turned counter-clockwise where it points as the other does; any number"
+         turned counter-clockwise where it points as the other does, or a joint is turned; any number"
     }
 
     fn takes(&self) -> &'static str {
-        "three points with the vertex in the middle, or two lines, in the plane"
+        "a joint; or three points with the vertex in the middle, or two lines, in the plane"
     }
 
     fn measure(&self) -> Measure {
@@ -28,6 +28,12 @@ impl Kind for Turns {
     }
 
     fn lower(&self, mut of: Given, low: &mut Lowering) -> Result<(), Fault> {
+        if of.items.next() == Sort::Joint {
+            let joint = of.items.joint()?;
+            of.items.end()?;
+            let degrees = of.number().value().clone();
+            return low.turn_of_joint(of.name, joint, &degrees);
+        }
         if low.problem.dimension != 2 {
             return Err("in space an angle has no sense of turn: say `angles`".to_owned());
         }

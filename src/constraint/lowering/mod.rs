@@ -1,6 +1,7 @@
 //! From constraints to equations: the unknowns and equations so far, and what kinds of constraints
 //! build them with.
 
+mod assembly;
 mod geometry;
 mod heading;
 mod number;
@@ -8,6 +9,7 @@ mod relations;
 mod symmetry;
 mod turn;
 
+pub use assembly::Assembled;
 pub use geometry::{Arrow, Place};
 pub use number::{Number, Sum};
 pub use relations::Measured;
@@ -22,6 +24,7 @@ use crate::statement::{Item, Problem, Target};
 use num_rational::BigRational;
 use num_traits::Zero;
 use std::collections::HashMap;
+use std::rc::Rc;
 
 /// Why a constraint cannot be put to work: what is wrong, and what to do about it.
 pub type Fault = String;
@@ -67,6 +70,8 @@ pub struct Lowering<'a> {
     crosses: HashMap<[[Form; 3]; 2], Arrow>,
     /// Numbers that equations of one's own are made of, see `number`.
     numbers: HashMap<number::Made, Number>,
+    /// Bodies with joints, once they were asked for.
+    assembled: Option<Rc<Assembled>>,
     /// Unknowns of objects, by index of the object.
     pub(super) objects: HashMap<usize, Vec<Entry>>,
 }
@@ -142,6 +147,7 @@ impl<'a> Lowering<'a> {
             headings: HashMap::new(),
             crosses: HashMap::new(),
             numbers: HashMap::new(),
+            assembled: None,
             objects: HashMap::new(),
         }
     }
@@ -326,11 +332,18 @@ impl<'a> Lowering<'a> {
         self.push(name.to_owned(), products, right, power, true);
     }
 
-    /// The equation Σ products = `target` of pure numbers, likewise.
-    pub fn meet(&mut self, name: &str, products: Vec<Product>, start: &Real, target: Real) {
+    /// The equation Σ products = `target`, likewise.
+    pub fn meet(
+        &mut self,
+        name: &str,
+        products: Vec<Product>,
+        start: &Real,
+        target: Real,
+        power: i32,
+    ) {
         let mut right = self.way_to_zero(start - &target);
         right[0] = &right[0] + &target;
-        self.push(name.to_owned(), products, right, 0, target.is_zero());
+        self.push(name.to_owned(), products, right, power, target.is_zero());
     }
 
     /// The way to zero of what is `start` in the sketch, see [`Lowering::vanish`].

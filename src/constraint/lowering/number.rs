@@ -174,7 +174,7 @@ impl Lowering<'_> {
             false => terms.iter().map(product).collect(),
         };
         let scale = Real::from(scale);
-        self.meet(name, products, &(&start * &scale), target * &scale);
+        self.meet(name, products, &(&start * &scale), target * &scale, 0);
     }
 
     /// For sets of all figures, where everything is evaluated in ranges: what has a factor in common is multiplied out as little as can be,

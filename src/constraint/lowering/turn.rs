@@ -32,14 +32,26 @@ impl Lowering<'_> {
         let power = u.power + v.power;
         let sizes = &length(&u.at) * &length(&v.at);
         let now = [dot(&u.at, &v.at), cross_in_plane(&u.at, &v.at)];
-        let [cosine, sine] = self.way_round(now, &sizes, degrees)?;
+        let dot = self.dot(1, &u.forms, &v.forms);
+        let cross = self.cross_in_plane(1, &u.forms, &v.forms);
+        self.turn_by(name, [dot, cross], (now, &sizes, power), degrees)
+    }
+
+    /// The same, of products that are the cosine and the sine of an angle, both multiplied by a size that is greater than 0. `now`: what these
+    /// are in the sketch, the size there, and the power of the unit of length that it has.
+    pub(super) fn turn_by(
+        &mut self,
+        name: &str,
+        products: [Vec<Product>; 2],
+        (now, sizes, power): ([BigRational; 2], &Real, i32),
+        degrees: &BigRational,
+    ) -> Result<(), Fault> {
+        let [cosine, sine] = self.way_round(now, sizes, degrees)?;
         let cosine = self.coefficient(&format!("{name}, the cosine"), 0, Parity::Even, cosine);
         let sine = self.coefficient(&format!("{name}, the sine"), 0, Parity::Odd, sine);
         let what = format!("{name}, the product of the lengths");
-        let size = self.unknown(what, Role::Positive, power, [false; 3], sizes);
-        let dot = self.dot(1, &u.forms, &v.forms);
-        let cross = self.cross_in_plane(1, &u.forms, &v.forms);
-        for (mut products, number) in [(dot, cosine), (cross, sine)] {
+        let size = self.unknown(what, Role::Positive, power, [false; 3], sizes.clone());
+        for (mut products, number) in products.into_iter().zip([cosine, sine]) {
             products.push(Product::new(-1, value(size), value(number)));
             self.equate(name, products, vec![Real::zero()], power);
         }

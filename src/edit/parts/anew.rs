@@ -220,7 +220,7 @@ impl Parts {
         }
         if !matches!(last.ending, Ending::Reached | Ending::Limit(_)) {
             edited.points = self.points();
-            edited.numbers = self.numbers();
+            edited.objects = self.objects();
         }
         for lost in &mut edited.orientations.lost {
             lost.t = whole(lost.t);

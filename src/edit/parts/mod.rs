@@ -19,7 +19,7 @@ mod standing;
 mod words;
 
 use crate::blocks::{Account, Blocks, Combination, Cut, Given, Singular, System, Used, Verdict};
-use crate::constraint::{Record, try_lower_all};
+use crate::constraint::{Entry, Posed, Record, try_lower_all};
 use crate::edit::ending::{Astray, Dimension, Edited, Ending, Keep, Limit, Orientations};
 use crate::edit::lowered;
 use crate::edit::open::{Moved, OpenError};
@@ -28,7 +28,7 @@ use crate::edit::setting::Setting;
 use crate::interval::{Interval, Real, hull, point};
 use crate::places::array;
 use crate::problem::Problem;
-use crate::system::{Extent, Segment};
+use crate::system::{Extent, Located, Segment};
 use crate::track::arc::{Kept, Off, Orientation};
 use crate::track::certified::FollowArcs;
 use crate::track::{Control, Options, StartError, Stop, StopKind};
@@ -101,6 +101,8 @@ pub(super) struct Parts {
     together: Vec<BTreeSet<usize>>,
     /// For each object its radius, if it is a circle.
     numbers: Vec<Option<usize>>,
+    /// See [`Cut::told`].
+    told: (Vec<Vec<Entry>>, Vec<Posed>),
     /// Points of which the orientation is a sense that constraints leave open: followed always.
     senses: Vec<Vec<usize>>,
     /// Those, and points that distances join, which are followed where all of them are in one part.
@@ -202,6 +204,7 @@ impl Parts {
             rights,
             powers,
             numbers,
+            told,
             record,
             unit,
             owners,
@@ -248,6 +251,7 @@ impl Parts {
             together: Vec::new(),
             owners,
             numbers,
+            told,
             figure,
             singular,
             unit,
@@ -379,17 +383,16 @@ impl Parts {
             .collect()
     }
 
-    /// The radii of circles and the values of unknown numbers, by object.
-    pub fn numbers(&self) -> Vec<Option<Interval>> {
-        self.numbers_of(&self.figure)
+    /// Where the objects are.
+    pub fn objects(&self) -> Vec<Located> {
+        self.objects_of(&self.figure)
     }
 
-    fn numbers_of(&self, figure: &[Known]) -> Vec<Option<Interval>> {
-        let number = |u: usize| {
-            let unit = self.unit.powi(self.system.unknowns[u].power);
-            figure[u].enclosure() * point(unit)
-        };
-        self.numbers.iter().map(|u| u.map(number)).collect()
+    fn objects_of(&self, figure: &[Known]) -> Vec<Located> {
+        let points = self.points_of(figure);
+        let at = |u: usize| figure[u].enclosure();
+        let system = &self.system;
+        system.locate(&self.problem, &self.told, &points, self.unit, at)
     }
 
     /// The figure in floats, in the homotopy's unit.
@@ -602,7 +605,7 @@ impl Parts {
             t: run.t,
             dimensions,
             points: self.points_of(figure),
-            numbers: self.numbers_of(figure),
+            objects: self.objects_of(figure),
             orientations: Orientations::new(run.orientations),
             tubes: run.tubes,
             rejected: run.rejected,

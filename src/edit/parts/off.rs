@@ -138,7 +138,7 @@ impl Parts {
             t: (1.0, 1.0),
             dimensions: dimensions.collect(),
             points: parts.points(),
-            numbers: parts.numbers(),
+            objects: parts.objects(),
             orientations: Orientations::default(),
             tubes: parts.moved.tubes,
             rejected: 0,

@@ -59,8 +59,11 @@ const COMPONENTS: usize = 3;
 impl Body {
     /// The body of a line: all that it says is compared with the problem.
     pub fn new(problem: &Problem, eq: &Equations, line: &Line) -> Result<Body, String> {
-        let Some(Shape::Body { points, local }) =
-            problem.objects.get(line.object).map(|object| &object.shape)
+        let Some(Shape::Body {
+            points,
+            local,
+            place: None,
+        }) = problem.objects.get(line.object).map(|object| &object.shape)
         else {
             return Err("what is called a body is none".to_owned());
         };

@@ -117,7 +117,12 @@ impl Poses {
             .iter()
             .enumerate()
             .find_map(|(number, object)| {
-                let Shape::Body { points, local } = &object.shape else {
+                let Shape::Body {
+                    points,
+                    local,
+                    place: None,
+                } = &object.shape
+                else {
                     return None;
                 };
                 let own = points.iter().map(|&p| unknowns(p));

@@ -1,0 +1,398 @@
+//! How bodies with joints are told: which of them turn together, and along which vectors the frame of each is told.
+//!
+//! Where a body is turned is told by unit vectors: the axes of its joints, which it shares with the body at the other side, and where it has
+//! fewer than two that are not parallel, by more of its own. Vectors in place of angles or of three points make equations of degree two, few
+//! unknowns, and no length twice (J. García de Jalón and E. Bayo, Kinematic and Dynamic Simulation of Multibody Systems, chapter 2: natural
+//! coordinates).
+
+use super::lowering::Fault;
+use crate::decimal::Decimal;
+use crate::interval::Real;
+use crate::statement::{JointSort, Pose, Problem, Shape};
+use std::array::from_fn;
+
+/// A vector of exact numbers.
+pub type Exact = [Real; 3];
+/// The axes of a frame, one after the other.
+pub type Turned = [Exact; 3];
+
+/// The vector of three decimals.
+pub fn exact(of: &[Decimal; 3]) -> Exact {
+    of.each_ref().map(|x| Real::from(x.value().clone()))
+}
+
+/// a · b.
+pub fn dot(a: &Exact, b: &Exact) -> Real {
+    (0..3).fold(Real::zero(), |sum, k| &sum + &(&a[k] * &b[k]))
+}
+
+/// a × b.
+pub fn cross(a: &Exact, b: &Exact) -> Exact {
+    from_fn(|k| {
+        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+        &(&a[i] * &b[j]) - &(&a[j] * &b[i])
+    })
+}
+
+/// factor · a.
+pub fn times(factor: &Real, a: &Exact) -> Exact {
+    a.each_ref().map(|x| factor * x)
+}
+
+/// a + b.
+pub fn plus(a: &Exact, b: &Exact) -> Exact {
+    from_fn(|k| &a[k] + &b[k])
+}
+
+/// Whether all are known to be zero.
+fn is_zero(a: &Exact) -> bool {
+    a.iter().all(Real::is_zero)
+}
+
+/// a / |a|, where a is not zero.
+fn unit(a: &Exact) -> Exact {
+    let length = dot(a, a).sqrt();
+    a.each_ref().map(|x| x / &length)
+}
+
+/// The vector in which a frame has these coordinates.
+pub fn out_of(axes: &Turned, v: &Exact) -> Exact {
+    (0..3).fold(from_fn(|_| Real::zero()), |sum, k| {
+        plus(&sum, &times(&v[k], &axes[k]))
+    })
+}
+
+/// The axes of a pose.
+///
+/// # Errors
+/// If two of its directions are parallel, or one is zero.
+pub fn axes(pose: &Pose) -> Result<Turned, Fault> {
+    let (z, x) = (exact(&pose.z), exact(&pose.x));
+    let y = cross(&z, &x);
+    if is_zero(&y) {
+        return Err(
+            "its z axis and its x axis are parallel, or one of them is zero: give two directions"
+                .to_owned(),
+        );
+    }
+    let (z, y) = (unit(&z), unit(&y));
+    Ok([cross(&y, &z), y, z])
+}
+
+/// A body: the bodies that turn with it, and how it is turned among them.
+pub struct Member {
+    /// Its number among the objects.
+    pub body: usize,
+    /// The number of its group.
+    pub group: usize,
+    /// Its axes in the coordinates of the group.
+    pub turned: Turned,
+}
+
+/// Bodies that always turn together.
+pub struct Group {
+    /// The body whose axes its coordinates are along.
+    pub body: usize,
+    /// Its axes in the user's frame, where they stand.
+    pub stands: Option<Turned>,
+    /// The axes of joints in it that are not parallel to each other, by number, and their directions in its coordinates. Where it does not
+    /// stand it is told by the first two of them.
+    pub axes: Vec<(usize, Exact)>,
+}
+
+/// An axis of joints: a unit vector.
+pub struct Axis {
+    /// The joint that it is called after, by number among the objects.
+    pub joint: usize,
+    /// Its direction, where that stands.
+    pub stands: Option<Exact>,
+}
+
+/// All bodies with joints of a problem.
+pub struct Assembly {
+    /// The bodies, in the order of the objects.
+    pub members: Vec<Member>,
+    /// The groups.
+    pub groups: Vec<Group>,
+    /// The axes.
+    pub axes: Vec<Axis>,
+    /// Of each joint its number among the objects, and of the axis along the z axis of its frame in either body the number and whether it is along the
+    /// opposite direction. Joints that need none have none.
+    pub joints: Vec<(usize, [Option<(usize, bool)>; 2])>,
+}
+
+impl Assembly {
+    /// That of a problem.
+    ///
+    /// # Errors
+    /// The number of the object at fault, and what is wrong with it.
+    pub fn of(problem: &Problem) -> Result<Self, (usize, Fault)> {
+        let mut made = Assembly {
+            members: Vec::new(),
+            groups: Vec::new(),
+            axes: Vec::new(),
+            joints: Vec::new(),
+        };
+        made.gather(problem)?;
+        made.stand(problem)?;
+        if problem.dimension == 3 {
+            made.find_axes(problem)?;
+        } else {
+            made.joints = joints(problem).map(|(j, ..)| (j, [None; 2])).collect();
+        }
+        for group in &mut made.groups {
+            let stands = |&(axis, _): &(usize, Exact)| made.axes[axis].stands.is_none();
+            // What stands first: then as few as can be have to be told.
+            let (moving, standing): (Vec<_>, Vec<_>) = group.axes.drain(..).partition(stands);
+            group.axes = [standing, moving].concat();
+        }
+        Ok(made)
+    }
+
+    /// The member that a body is.
+    pub fn member(&self, body: usize) -> &Member {
+        let mut members = self.members.iter();
+        members
+            .find(|m| m.body == body)
+            .expect("a body with joints")
+    }
+
+    /// The groups: bodies that joints without a turn connect.
+    fn gather(&mut self, problem: &Problem) -> Result<(), (usize, Fault)> {
+        let identity: Turned = from_fn(|i| from_fn(|k| Real::whole(i64::from(i == k))));
+        for (body, object) in problem.objects.iter().enumerate() {
+            if !matches!(object.shape, Shape::Body { place: Some(_), .. })
+                || self.members.iter().any(|m| m.body == body)
+            {
+                continue;
+            }
+            let group = self.groups.len();
+            self.groups.push(Group {
+                body,
+                stands: None,
+                axes: Vec::new(),
+            });
+            let mut next = vec![(body, identity.clone())];
+            while let Some((body, turned)) = next.pop() {
+                if self.members.iter().any(|m| m.body == body) {
+                    continue;
+                }
+                for (joint, sort, bodies, frames) in joints(problem) {
+                    let Some(side) = bodies.iter().position(|&b| b == body) else {
+                        continue;
+                    };
+                    if !sort.keeps_directions() {
+                        continue;
+                    }
+                    let fault = |fault| (joint, fault);
+                    // The frame's axes in the group, which are those of the frame of the other side, too.
+                    let frame = axes(&frames[side]).map_err(fault)?;
+                    let frame = frame.each_ref().map(|axis| out_of(&turned, axis));
+                    let other = axes(&frames[1 - side]).map_err(fault)?;
+                    // An axis of the other body has the same coordinates in both.
+                    let others = from_fn(|k| {
+                        let along: Exact = from_fn(|i| other[i][k].clone());
+                        out_of(&frame, &along)
+                    });
+                    next.push((bodies[1 - side], others));
+                }
+                self.members.push(Member {
+                    body,
+                    group,
+                    turned,
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// The groups that stand.
+    fn stand(&mut self, problem: &Problem) -> Result<(), (usize, Fault)> {
+        for body in problem.standing_bodies() {
+            let Shape::Body {
+                place: Some(pose), ..
+            } = &problem.objects[body].shape
+            else {
+                unreachable!("a body with joints")
+            };
+            let here = axes(pose).map_err(|fault| (body, fault))?;
+            let member = self.member(body);
+            let group = member.group;
+            let whole = from_fn(|k| {
+                let along: Exact = from_fn(|i| member.turned[i][k].clone());
+                out_of(&here, &along)
+            });
+            match &self.groups[group].stands {
+                Some(stands) if *stands != whole => {
+                    let fault = "it stands, and so does another body that it always turns with: leave it out of `fixed`";
+                    return Err((body, fault.to_owned()));
+                }
+                _ => self.groups[group].stands = Some(whole),
+            }
+        }
+        Ok(())
+    }
+
+    /// The axes of joints: one for all that are parallel in a body, and of each joint for both of its sides.
+    fn find_axes(&mut self, problem: &Problem) -> Result<(), (usize, Fault)> {
+        // Of each side of a joint the group and the direction in it, as it is given.
+        let mut sides: Vec<(usize, usize, Exact)> = Vec::new();
+        let mut of_joints = Vec::new();
+        for (joint, sort, bodies, frames) in joints(problem) {
+            let mut of = [None; 2];
+            for (side, of) in of.iter_mut().enumerate() {
+                let needs = match sort {
+                    JointSort::Spherical | JointSort::Rigid => false,
+                    JointSort::OnPlane => side == 0,
+                    _ => true,
+                };
+                axes(&frames[side]).map_err(|fault| (joint, fault))?;
+                if needs {
+                    let member = self.member(bodies[side]);
+                    *of = Some(sides.len());
+                    sides.push((
+                        joint,
+                        member.group,
+                        out_of(&member.turned, &exact(&frames[side].z)),
+                    ));
+                }
+            }
+            of_joints.push((joint, sort, of));
+        }
+        // What is one axis, and which of them along the opposite direction.
+        let mut axis: Vec<Option<(usize, bool)>> = vec![None; sides.len()];
+        for first in 0..sides.len() {
+            if axis[first].is_some() {
+                continue;
+            }
+            let number = self.axes.len();
+            self.axes.push(Axis {
+                joint: sides[first].0,
+                stands: None,
+            });
+            axis[first] = Some((number, false));
+            let mut next = vec![first];
+            while let Some(side) = next.pop() {
+                let (_, is_opposite) = axis[side].expect("just said");
+                let (_, group, direction) = &sides[side];
+                for (other, (_, of, along)) in sides.iter().enumerate() {
+                    if axis[other].is_none() && of == group && is_zero(&cross(direction, along)) {
+                        let turns = dot(direction, along).enclose().sup() < 0.0;
+                        axis[other] = Some((number, is_opposite ^ turns));
+                        next.push(other);
+                    }
+                }
+                let both = of_joints.iter().find(|(_, sort, of)| {
+                    *sort != JointSort::Universal && of.contains(&Some(side))
+                });
+                if let Some((_, _, [Some(a), Some(b)])) = both {
+                    for &end in [a, b] {
+                        if axis[end].is_none() {
+                            axis[end] = Some((number, is_opposite));
+                            next.push(end);
+                        }
+                    }
+                }
+            }
+        }
+        for ((joint, group, direction), axis) in sides.iter().zip(&axis) {
+            let (number, is_opposite) = axis.expect("all have one");
+            let sign = Real::whole(if is_opposite { -1 } else { 1 });
+            let group = &mut self.groups[*group];
+            let along = times(&sign, &unit(direction));
+            match group.axes.iter().find(|&&(other, _)| other == number) {
+                Some((_, other)) if !is_zero(&cross(other, direction)) => {
+                    let other = &problem.objects[self.axes[number].joint].name;
+                    return Err((
+                        *joint,
+                        format!(
+                            "by other bodies its axis is parallel to that of `{other}`, and by this one it is not"
+                        ),
+                    ));
+                }
+                Some(_) => {}
+                None => {
+                    let is_apart = |(_, other): &(usize, Exact)| {
+                        let product = dot(other, &along).enclose();
+                        product.mag() < 1.0
+                    };
+                    if !group.axes.iter().all(is_apart) {
+                        let fault = "it cannot be told whether its axis is parallel to another one of the body: give both the same numbers";
+                        return Err((*joint, fault.to_owned()));
+                    }
+                    group.axes.push((number, along.clone()));
+                }
+            }
+            if let Some(stands) = &group.stands {
+                self.axes[number].stands = Some(out_of(stands, &along));
+            }
+        }
+        let number = |side: &Option<usize>| side.and_then(|side| axis[side]);
+        let joints = of_joints.iter();
+        self.joints = joints
+            .map(|(joint, _, of)| (*joint, of.each_ref().map(number)))
+            .collect();
+        Ok(())
+    }
+
+    /// A direction in a group that is not along the given one, in its coordinates, at a right angle to it: toward another place of joints or points
+    /// of a body in it, if there is one.
+    pub fn beside(&self, problem: &Problem, group: usize, axis: &Exact) -> Exact {
+        let mut found = Vec::new();
+        for member in self.members.iter().filter(|m| m.group == group) {
+            let mut places: Vec<Exact> = Vec::new();
+            for (_, _, bodies, frames) in joints(problem) {
+                let sides = (0..2).filter(|&side| bodies[side] == member.body);
+                places.extend(sides.map(|side| exact(&frames[side].at)));
+            }
+            if let Shape::Body { local, .. } = &problem.objects[member.body].shape {
+                places.extend(local.iter().map(exact));
+            }
+            let first = places.first().cloned().unwrap_or(from_fn(|_| Real::zero()));
+            let apart = |place: &Exact| {
+                let from = plus(place, &times(&Real::whole(-1), &first));
+                out_of(&member.turned, &from)
+            };
+            found.extend(places.iter().map(apart));
+        }
+        found.extend((0..3).map(|k| from_fn(|i| Real::whole(i64::from(i == k)))));
+        let across = found.iter().map(|v| {
+            let along = dot(v, axis);
+            plus(v, &times(&-&along, axis))
+        });
+        let is_far = |v: &Exact| {
+            let square = dot(v, v).enclose();
+            square.inf() > 0.0
+        };
+        let found = across.into_iter().find(is_far);
+        unit(&found.expect("not all three axes are along one vector"))
+    }
+
+    /// The coordinates of a vector along e, f and e × f, where e and f are unit vectors with this product.
+    pub fn along(basis: &[Exact; 2], product: &Real, v: &Exact) -> Exact {
+        let [e, f] = basis;
+        let (on_e, on_f) = (dot(v, e), dot(v, f));
+        let across = &Real::whole(1) - &(product * product);
+        let share = |a: &Real, b: &Real| &(a - &(product * b)) / &across;
+        [
+            share(&on_e, &on_f),
+            share(&on_f, &on_e),
+            &dot(v, &cross(e, f)) / &across,
+        ]
+    }
+}
+
+/// The joints: number among the objects, sort, bodies and frames.
+pub fn joints(
+    problem: &Problem,
+) -> impl Iterator<Item = (usize, JointSort, [usize; 2], &[Pose; 2])> {
+    let objects = problem.objects.iter().enumerate();
+    objects.filter_map(|(index, object)| match &object.shape {
+        Shape::Joint {
+            sort,
+            bodies,
+            frames,
+        } => Some((index, *sort, *bodies, &**frames)),
+        _ => None,
+    })
+}

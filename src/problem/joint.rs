@@ -1,0 +1,602 @@
+//! Bodies with joints: their tables in problem files, robots as tables of Denavit and Hartenberg, and where bodies are in the sketch.
+
+use super::builder::{ProblemBuilder, number};
+use super::draft::DraftShape;
+use super::error::Place;
+use super::file::{FileError, Line, Reader};
+use super::{Decimal, DecimalError, JointSort, Object, Point, Pose, ProblemError, Shape};
+use crate::interval::vector::{cross, dot, length, minus};
+use crate::places::{Each as _, array};
+use crate::statement::nearest;
+use std::collections::HashMap;
+use toml_edit::{Item, Key, TableLike, Value};
+
+/// How a joint is written.
+pub(super) const WANTED: &str = "{ revolute = [\"body\", \"body\"], at = [[0, 0, 0], [0, 0, 0]], z = [[0, 0, 1], [0, 0, 1]], x = [[1, 0, 0], [1, 0, 0]] }";
+
+/// A frame in floats: the origin, and three axes.
+type Motion = ([f64; 3], [[f64; 3]; 3]);
+
+impl Pose {
+    /// A frame, with what its origin, its z axis and its x axis are.
+    ///
+    /// # Errors
+    /// If a number is no finite decimal.
+    pub fn new<N>(at: [N; 3], z: [N; 3], x: [N; 3]) -> Result<Self, DecimalError>
+    where
+        N: TryInto<Decimal>,
+        DecimalError: From<N::Error>,
+    {
+        let three = |of: [N; 3]| -> Result<[Decimal; 3], DecimalError> {
+            let [x, y, z] = of.map(number);
+            Ok([x?, y?, z?])
+        };
+        Ok(Pose {
+            at: three(at)?,
+            z: three(z)?,
+            x: three(x)?,
+        })
+    }
+
+    /// The frame in which everything is given.
+    pub fn identity() -> Self {
+        Self::new([0, 0, 0], [0, 0, 1], [1, 0, 0]).expect("whole numbers are decimals")
+    }
+
+    fn floats(&self) -> Motion {
+        let of = |v: &[Decimal; 3]| v.each_ref().each(|x| x.to_f64());
+        let (z, x) = (of(&self.z), of(&self.x));
+        (of(&self.at), frame_of(z, x))
+    }
+
+    fn of_floats((at, axes): &Motion) -> Self {
+        // Of directions fifteen digits: what should be 0 mostly is then.
+        let rounded = |v: &[f64; 3]| v.map(|x| to_decimal((x * 1e15).round() / 1e15));
+        Pose {
+            at: at.map(to_decimal),
+            z: rounded(&axes[2]),
+            x: rounded(&axes[0]),
+        }
+    }
+}
+
+/// The axes of a frame with this z axis, and the x axis on that side of it; the identity's where the two are parallel.
+fn frame_of(z: [f64; 3], x: [f64; 3]) -> [[f64; 3]; 3] {
+    let y = cross(z, x);
+    if length(y) == 0.0 {
+        return [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    }
+    let unit = |v: [f64; 3]| v.map(|x| x / length(v));
+    let (y, z) = (unit(y), unit(z));
+    [cross(y, z), y, z]
+}
+
+/// One frame in another.
+fn then(first: &Motion, second: &Motion) -> Motion {
+    let turned = |v: &[f64; 3]| out_of(&first.1, v);
+    let at = turned(&second.0);
+    (
+        array(|k| first.0[k] + at[k]),
+        second.1.each_ref().map(turned),
+    )
+}
+
+fn out_of(axes: &[[f64; 3]; 3], v: &[f64; 3]) -> [f64; 3] {
+    array(|k| (0..3).map(|i| v[i] * axes[i][k]).sum())
+}
+
+/// What undoes a motion.
+fn back((at, axes): &Motion) -> Motion {
+    let turned: [[f64; 3]; 3] = array(|i| array(|k| axes[k][i]));
+    let at = axes.each_ref().map(|axis| -dot(*axis, *at));
+    (at, turned)
+}
+
+/// A turn about z by degrees, and a travel along it.
+fn screw(degrees: f64, travel: f64) -> Motion {
+    let (sine, cosine) = degrees.to_radians().sin_cos();
+    (
+        [0.0, 0.0, travel],
+        [[cosine, sine, 0.0], [-sine, cosine, 0.0], [0.0, 0.0, 1.0]],
+    )
+}
+
+/// What is said of joints beside what they are.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Drawn {
+    /// Where bodies are in the sketch, by name.
+    places: HashMap<String, Pose>,
+    /// What joints measure in the sketch, by name: degrees, of prismatic ones a length.
+    values: HashMap<String, Decimal>,
+}
+
+impl ProblemBuilder {
+    /// Adds a joint between two bodies, with its frame in either of them.
+    ///
+    /// ```
+    /// use krawl::problem::{JointSort, Pose, Problem};
+    /// let pin = |at| Pose::new(at, [0, 0, 1], [1, 0, 0]).unwrap();
+    /// let crank = Problem::build("crank", 2)
+    ///     .point("tip", [2, 1])
+    ///     .body("ground", [("ground", [0, 0]); 0]).body("bar", [("tip", [3, 0])])
+    ///     .joint("hinge", JointSort::Revolute, ["ground", "bar"], [pin([0, 0, 0]), pin([0, 0, 0])])
+    ///     .dimension("turns", ["hinge"], 30)
+    ///     .finish().unwrap();
+    /// assert!(crank.has_joints());
+    /// ```
+    pub fn joint(self, name: &str, sort: JointSort, bodies: [&str; 2], frames: [Pose; 2]) -> Self {
+        let bodies = bodies.map(str::to_owned);
+        self.object(name, DraftShape::Joint(sort, bodies, Box::new(frames)))
+    }
+
+    /// Says where a body with joints is in the sketch. Left out, it is where joints have it.
+    pub fn place(mut self, body: &str, place: Pose) -> Self {
+        self.drawn.places.insert(body.to_owned(), place);
+        self
+    }
+
+    /// Says how far a joint is turned in the sketch, in degrees, or how far a prismatic one is drawn out. Left out, it is 0.
+    pub fn joint_in_sketch(mut self, joint: &str, value: Decimal) -> Self {
+        self.drawn.values.insert(joint.to_owned(), value);
+        self
+    }
+
+    /// Gives all bodies with joints their places in the sketch.
+    pub(super) fn place_bodies(
+        &self,
+        points: &[Point],
+        objects: &mut [Object],
+    ) -> Result<(), ProblemError> {
+        let mut known: HashMap<usize, Motion> = HashMap::new();
+        for (name, pose) in &self.drawn.places {
+            let is_it = |object: &Object| object.name == *name;
+            match objects.iter().position(is_it) {
+                Some(body) if matches!(objects[body].shape, Shape::Body { .. }) => {
+                    known.insert(body, pose.floats());
+                }
+                _ => {
+                    let bodies = objects.iter().map(|o| o.name.as_str());
+                    return Err(ProblemError::UnknownPoint {
+                        objects: true,
+                        place: Place::Whole,
+                        what: "the table of places".to_owned(),
+                        name: name.clone(),
+                        nearest: nearest(name, bodies),
+                    });
+                }
+            }
+        }
+        let joints: Vec<(JointSort, [usize; 2], [Motion; 2], f64)> = objects
+            .iter()
+            .filter_map(|object| match &object.shape {
+                Shape::Joint {
+                    sort,
+                    bodies,
+                    frames,
+                } => {
+                    let value = self.drawn.values.get(&object.name);
+                    let value = value.map_or(0.0, Decimal::to_f64);
+                    let frames = frames.each_ref().map(Pose::floats);
+                    Some((*sort, *bodies, frames, value))
+                }
+                _ => None,
+            })
+            .collect();
+        let joined: Vec<usize> = (0..objects.len())
+            .filter(|body| {
+                let of = |joint: &(_, [usize; 2], _, _)| joint.1.contains(body);
+                known.contains_key(body) || joints.iter().any(of)
+            })
+            .collect();
+        for &body in &joined {
+            if let (
+                false,
+                Shape::Body {
+                    points: members,
+                    local,
+                    ..
+                },
+            ) = (known.contains_key(&body), &objects[body].shape)
+                && let Some(motion) = fitted(self.dimension, points, members, local)
+            {
+                known.insert(body, motion);
+            }
+        }
+        // From a body that stands on, along the joints.
+        let is_fixed = |body: usize| self.is_fixed(&objects[body].name);
+        let ground = joined.iter().copied().find(|&body| is_fixed(body));
+        let Some(ground) = ground.or(joined.first().copied()) else {
+            return Ok(());
+        };
+        let identity = Pose::identity().floats();
+        known.entry(ground).or_insert(identity);
+        let mut reached = vec![ground];
+        let mut next = 0;
+        loop {
+            while next < reached.len() {
+                let body = reached[next];
+                next += 1;
+                for (sort, bodies, frames, value) in &joints {
+                    let Some(side) = bodies.iter().position(|&b| b == body) else {
+                        continue;
+                    };
+                    let other = bodies[1 - side];
+                    if reached.contains(&other) {
+                        continue;
+                    }
+                    if !known.contains_key(&other) {
+                        let between = between(*sort, *value, self.dimension);
+                        let here = then(&known[&body], &frames[side]);
+                        let there = match side {
+                            0 => then(&here, &between),
+                            _ => then(&here, &back(&between)),
+                        };
+                        known.insert(other, then(&there, &back(&frames[1 - side])));
+                    }
+                    reached.push(other);
+                }
+            }
+            // What no joint connects with those.
+            let left = joined.iter().find(|body| !reached.contains(body));
+            let Some(&left) = left else { break };
+            known.entry(left).or_insert(identity);
+            reached.push(left);
+        }
+        for body in joined {
+            let given = self.drawn.places.get(&objects[body].name).cloned();
+            if let Shape::Body { place, .. } = &mut objects[body].shape {
+                let pose = given.unwrap_or_else(|| Pose::of_floats(&known[&body]));
+                *place = Some(Box::new(pose));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The second frame of a joint in the first one, where it measures `value`.
+fn between(sort: JointSort, value: f64, dimension: usize) -> Motion {
+    match sort {
+        JointSort::Prismatic if dimension == 2 => ([value, 0.0, 0.0], screw(0.0, 0.0).1),
+        JointSort::Prismatic => screw(0.0, value),
+        // The second one's z axis is along the first one's y axis.
+        JointSort::Universal => (
+            [0.0; 3],
+            [[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]],
+        ),
+        sort if sort.turns() => screw(value, 0.0),
+        _ => screw(0.0, 0.0),
+    }
+}
+
+/// Where a body is whose points are drawn.
+fn fitted(
+    dimension: usize,
+    points: &[Point],
+    members: &[usize],
+    local: &[[Decimal; 3]],
+) -> Option<Motion> {
+    let of = |v: &[Decimal; 3]| v.each_ref().each(|x| x.to_f64());
+    let pairs: Vec<([f64; 3], [f64; 3])> = members
+        .iter()
+        .zip(local)
+        .map(|(&p, local)| (of(&points[p].sketch), of(local)))
+        .collect();
+    let (first, rest) = pairs.split_first()?;
+    let up = [0.0, 0.0, 1.0];
+    for (k, one) in rest.iter().enumerate() {
+        let along = |side: fn(&([f64; 3], [f64; 3])) -> [f64; 3], of: &([f64; 3], [f64; 3])| {
+            minus(side(of), side(first))
+        };
+        let (drawn, own) = (
+            |p: &([f64; 3], [f64; 3])| p.0,
+            |p: &([f64; 3], [f64; 3])| p.1,
+        );
+        let axes = |side: fn(&([f64; 3], [f64; 3])) -> [f64; 3]| -> Option<[[f64; 3]; 3]> {
+            let x = along(side, one);
+            if dimension == 2 {
+                return (length(x) > 0.0).then(|| frame_of(up, x));
+            }
+            rest[k + 1..].iter().find_map(|two| {
+                let across = cross(x, along(side, two));
+                let size = length(x) * length(along(side, two));
+                // A corner flatter than this tells a plane badly.
+                (length(across) > 0.01 * size).then(|| frame_of(across, x))
+            })
+        };
+        if let (Some(there), Some(here)) = (axes(drawn), axes(own)) {
+            let motion = then(&(first.0, there), &back(&(first.1, here)));
+            return Some(motion);
+        }
+    }
+    None
+}
+
+impl Reader<'_> {
+    /// The table `places`, and what joints measure in the sketch.
+    pub(super) fn places_of_bodies(
+        &self,
+        root: &dyn TableLike,
+        dimension: usize,
+        mut builder: ProblemBuilder,
+    ) -> Result<ProblemBuilder, FileError> {
+        let Some((line, item)) = self.get(root, "places") else {
+            return Ok(builder);
+        };
+        let table = self.table(line, "places", item)?;
+        for (name, item) in table.iter() {
+            let line = self.line(table.key(name).and_then(Key::span)).or(line);
+            let key = format!("places.{name}");
+            let wanted = "{ at = [0, 0, 0], z = [0, 0, 1], x = [1, 0, 0] }";
+            let wrong = || self.wrong_kind(line, &key, wanted, item);
+            let parts = item.as_table_like().ok_or_else(wrong)?;
+            self.known_keys(parts, &format!("{key}."), &["at", "z", "x"])?;
+            let of = |part: &str| -> Result<Option<[Decimal; 3]>, FileError> {
+                let Some(item) = parts.get(part) else {
+                    return Ok(None);
+                };
+                let value = item.as_value().ok_or_else(wrong)?;
+                let three = self.three(line, &format!("{key}.{part}"), dimension, value)?;
+                three.map(Some).ok_or_else(wrong)
+            };
+            let identity = Pose::identity();
+            let pose = Pose {
+                at: of("at")?.unwrap_or(identity.at),
+                z: of("z")?.unwrap_or(identity.z),
+                x: of("x")?.unwrap_or(identity.x),
+            };
+            builder = builder.place(name, pose);
+        }
+        Ok(builder)
+    }
+
+    /// A list of numbers: as many as there are dimensions, the rest zero; or three.
+    fn three(
+        &self,
+        line: Line,
+        key: &str,
+        dimension: usize,
+        value: &Value,
+    ) -> Result<Option<[Decimal; 3]>, FileError> {
+        let Some(list) = value.as_array() else {
+            return Ok(None);
+        };
+        if list.len() != dimension && list.len() != 3 {
+            return Ok(None);
+        }
+        let mut three = [0, 0, 0].map(Decimal::from);
+        for (three, value) in three.iter_mut().zip(list.iter()) {
+            *three = self.number(line, key, value)?;
+        }
+        Ok(Some(three))
+    }
+
+    /// A joint of the table `joints`.
+    pub(super) fn joint(
+        &self,
+        line: Line,
+        key: &str,
+        name: &str,
+        item: &Item,
+        builder: ProblemBuilder,
+    ) -> Result<ProblemBuilder, FileError> {
+        let wrong = || self.wrong_kind(line, key, WANTED, item);
+        let parts = item.as_table_like().ok_or_else(wrong)?;
+        let sorts = JointSort::ALL.map(JointSort::key);
+        let known = [&sorts[..], &["at", "z", "x", "sketch"]].concat();
+        self.known_keys(parts, &format!("{key}."), &known)?;
+        let given: Vec<JointSort> = JointSort::ALL
+            .into_iter()
+            .filter(|sort| parts.contains_key(sort.key()))
+            .collect();
+        let [sort] = given[..] else {
+            return Err(wrong());
+        };
+        let bodies = parts.get(sort.key()).and_then(Item::as_array);
+        let bodies: Vec<&str> = bodies
+            .into_iter()
+            .flatten()
+            .filter_map(Value::as_str)
+            .collect();
+        let [first, second] = bodies[..] else {
+            return Err(wrong());
+        };
+        let identity = Pose::identity();
+        let mut frames = [identity.clone(), identity];
+        for (part, of) in [
+            ("at", (|p| &mut p.at) as fn(&mut Pose) -> &mut [Decimal; 3]),
+            ("z", |p| &mut p.z),
+            ("x", |p| &mut p.x),
+        ] {
+            let Some(item) = parts.get(part) else {
+                continue;
+            };
+            let list = item.as_array().ok_or_else(wrong)?;
+            if list.len() != 2 {
+                return Err(wrong());
+            }
+            for (frame, value) in frames.iter_mut().zip(list.iter()) {
+                let key = format!("{key}.{part}");
+                let three = self.three(line, &key, builder.dimension, value)?;
+                *of(frame) = three.ok_or_else(wrong)?;
+            }
+        }
+        // Where only the axis is given, any direction across it will do.
+        if !parts.contains_key("x") {
+            for frame in &mut frames {
+                let is_along_x = frame.z[1..].iter().all(|c| *c == Decimal::from(0));
+                if is_along_x {
+                    frame.x = [0, 1, 0].map(Decimal::from);
+                }
+            }
+        }
+        let mut builder = builder.joint(name, sort, [first, second], frames);
+        if let Some(item) = parts.get("sketch") {
+            let value = item.as_value().ok_or_else(wrong)?;
+            let value = self.number(line, &format!("{key}.sketch"), value)?;
+            builder = builder.joint_in_sketch(name, value);
+        }
+        Ok(builder)
+    }
+
+    /// The robots of a file: name, line, and of each joint its row of Denavit and Hartenberg.
+    pub(super) fn robots(&self, root: &dyn TableLike) -> Result<Vec<Robot>, FileError> {
+        let Some((line, item)) = self.get(root, "robots") else {
+            return Ok(Vec::new());
+        };
+        let wanted = "a row for each joint, [{ d = 0.4, alpha = 90 }, { a = 0.3, theta = 20 }, { prismatic = true, d = 0.1 }]";
+        let table = self.table(line, "robots", item)?;
+        let robots = table.iter().map(|(name, item)| {
+            let line = self.line(table.key(name).and_then(Key::span)).or(line);
+            let key = format!("robots.{name}");
+            let wrong = || self.wrong_kind(line, &key, wanted, item);
+            let list = item.as_array().ok_or_else(wrong)?;
+            let rows = list.iter().map(|value| {
+                let row = value.as_inline_table().ok_or_else(wrong)?;
+                self.known_keys(
+                    row,
+                    &format!("{key}."),
+                    &["theta", "d", "a", "alpha", "prismatic"],
+                )?;
+                let of = |part: &str| match row.get(part) {
+                    None => Ok(Decimal::from(0)),
+                    Some(value) => self.number(line, &format!("{key}.{part}"), value),
+                };
+                let is_prismatic = match row.get("prismatic") {
+                    None => false,
+                    Some(value) => value.as_bool().ok_or_else(wrong)?,
+                };
+                Ok(Row {
+                    theta: of("theta")?,
+                    d: of("d")?,
+                    a: of("a")?,
+                    alpha: of("alpha")?,
+                    is_prismatic,
+                })
+            });
+            let rows = rows.collect::<Result<Vec<_>, FileError>>()?;
+            if rows.is_empty() {
+                return Err(wrong());
+            }
+            Ok(Robot {
+                name: name.to_owned(),
+                line,
+                rows,
+            })
+        });
+        robots.collect()
+    }
+}
+
+/// A robot whose joints are given as a table.
+pub(super) struct Robot {
+    name: String,
+    /// Where it is in the file.
+    pub line: Line,
+    rows: Vec<Row>,
+}
+
+/// A joint and the link behind it (J. Denavit and R. S. Hartenberg 1955): a turn by theta about z, a travel d along it, a travel a along the new x axis,
+/// a turn by alpha about that.
+struct Row {
+    theta: Decimal,
+    d: Decimal,
+    a: Decimal,
+    alpha: Decimal,
+    is_prismatic: bool,
+}
+
+impl Robot {
+    /// How many joints it has.
+    pub fn len(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// Adds its bodies: `name_0`, which is the first, to `name_n`.
+    pub fn add_bodies(&self, builder: ProblemBuilder) -> ProblemBuilder {
+        (0..=self.rows.len()).fold(builder, |builder, k| {
+            builder.body_of(&format!("{}_{k}", self.name), Vec::new())
+        })
+    }
+
+    /// Adds its joints: `name_j1` to `name_jn`. In the link behind a joint its frame is where the link's own frame, which is that of the next joint, sees
+    /// it.
+    pub fn add_joints(&self, builder: ProblemBuilder) -> ProblemBuilder {
+        let zero = || Decimal::from(0);
+        let mut builder = builder;
+        for (k, row) in self.rows.iter().enumerate() {
+            let [sine, cosine] = sine_and_cosine(&row.alpha);
+            // Seen from the link's frame, z goes back by alpha; x is the same.
+            let z = [zero(), sine.clone(), cosine.clone()];
+            // −a x − d z; of a prismatic joint d is its travel.
+            let d = match row.is_prismatic {
+                true => zero(),
+                false => row.d.clone(),
+            };
+            let at = [
+                negated(&row.a),
+                product(&negated(&d), &sine),
+                product(&negated(&d), &cosine),
+            ];
+            let behind = Pose {
+                at,
+                z,
+                x: [1, 0, 0].map(Decimal::from),
+            };
+            let mut before = Pose::identity();
+            let (sort, value) = match row.is_prismatic {
+                true => {
+                    let [sine, cosine] = sine_and_cosine(&row.theta);
+                    before.x = [cosine, sine, zero()];
+                    (JointSort::Prismatic, &row.d)
+                }
+                false => (JointSort::Revolute, &row.theta),
+            };
+            let name = format!("{}_j{}", self.name, k + 1);
+            let bodies = [k, k + 1].map(|k| format!("{}_{k}", self.name));
+            let bodies = bodies.each_ref().map(|body| &**body);
+            builder = builder.joint(&name, sort, bodies, [before, behind]);
+            builder = builder.joint_in_sketch(&name, value.clone());
+        }
+        builder
+    }
+}
+
+fn negated(of: &Decimal) -> Decimal {
+    let text = of.text();
+    let text = match text.strip_prefix('-') {
+        Some(text) => text.to_owned(),
+        None => format!("-{}", text.strip_prefix('+').unwrap_or(text)),
+    };
+    text.parse()
+        .expect("a decimal with its sign changed is one")
+}
+
+/// A product of decimals, to 17 digits where one of them is no 0, 1 or −1.
+fn product(a: &Decimal, b: &Decimal) -> Decimal {
+    if *b == Decimal::from(0) {
+        Decimal::from(0)
+    } else if *b == Decimal::from(1) {
+        a.clone()
+    } else if *b == Decimal::from(-1) {
+        negated(a)
+    } else {
+        to_decimal(a.to_f64() * b.to_f64())
+    }
+}
+
+fn to_decimal(x: f64) -> Decimal {
+    // Not −0.
+    Decimal::try_from(x + 0.0).unwrap_or(Decimal::from(0))
+}
+
+/// The sine and the cosine of an angle in degrees: exact where it is a multiple of 90, and otherwise to 17 digits.
+fn sine_and_cosine(degrees: &Decimal) -> [Decimal; 2] {
+    let x = degrees.to_f64();
+    match x.rem_euclid(360.0) {
+        0.0 => [0, 1].map(Decimal::from),
+        90.0 => [1, 0].map(Decimal::from),
+        180.0 => [0, -1].map(Decimal::from),
+        270.0 => [-1, 0].map(Decimal::from),
+        _ => [x.to_radians().sin(), x.to_radians().cos()].map(to_decimal),
+    }
+}
