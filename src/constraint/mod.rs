@@ -197,6 +197,11 @@ pub(crate) enum Owner {
     Constraint(usize),
 }
 
+/// What is wrong with bodies with joints by themselves, and the object at fault.
+pub(crate) fn check_joints(problem: &Problem) -> Result<(), (usize, Fault)> {
+    assembly::Assembly::of(problem).map(|_| ())
+}
+
 /// The equations of a problem with a reference and known names, or the first object or constraint at fault.
 pub(crate) fn try_lower(problem: &Problem) -> Result<Lowered, (Owner, Fault)> {
     try_lower_from(

@@ -127,10 +127,13 @@ impl Motion {
         control: &mut Control,
     ) -> Result<Self, String> {
         if problem.points.is_empty() {
-            return Err(
-                "there are no points: what moves is measured by lengths, angles and coordinates of points, and not of unknown numbers yet"
-                    .to_owned(),
-            );
+            let what = match problem.has_joints() {
+                true => NO_LENGTHS,
+                false => {
+                    "there are no points: what moves is measured by lengths, angles and coordinates of points, and not of unknown numbers yet"
+                }
+            };
+            return Err(what.to_owned());
         }
         let (problem, freed, mut quantities) = without(problem, free)?;
         if !asked.is_empty() {
@@ -141,6 +144,9 @@ impl Motion {
         }
         let (led, corrected) = surplus::corrected(&problem);
         let lengths = lengths(&led, &quantities);
+        if lengths.is_empty() && problem.has_joints() {
+            return Err(NO_LENGTHS.to_owned());
+        }
         let Followed {
             round,
             driver,
@@ -420,6 +426,9 @@ fn driven(problem: &Problem, ends: [usize; 2]) -> (Problem, Setting) {
     };
     (out, Setting { index, target })
 }
+
+const NO_LENGTHS: &str = "there are no two points between which a length is free: give bodies points, one of the body that stands and one of a body that moves, as \
+     `ground = { G = [0, 0] }` and `crank = { P = [1, 0] }`";
 
 const RIGID: &str =
     "the figure cannot move while all its dimensions stand still: set one free with `--free NAME`";

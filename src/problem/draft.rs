@@ -560,7 +560,7 @@ pub(super) fn check_names(problem: &super::Problem) -> Result<(), ProblemError> 
         if !all_flat {
             return Err(fault("its third coordinate must be zero in the plane"));
         }
-        if let Shape::Joint { bodies, .. } = &object.shape {
+        if let Shape::Joint { sort, bodies, .. } = &object.shape {
             let is_body = |&b: &usize| {
                 let shape = problem.objects.get(b).map(|object| &object.shape);
                 matches!(shape, Some(Shape::Body { place: Some(_), .. }))
@@ -568,11 +568,15 @@ pub(super) fn check_names(problem: &super::Problem) -> Result<(), ProblemError> 
             if !bodies.iter().all(is_body) || bodies[0] == bodies[1] {
                 return Err(fault("a joint is of two bodies: name two"));
             }
+            if problem.dimension == 2 && !sort.is_in_plane() {
+                return Err(fault(
+                    "in the plane there are revolute, prismatic and rigid joints",
+                ));
+            }
         }
         let there = match &object.shape {
             Shape::Plane(_) | Shape::FreePlane { .. } => problem.dimension == 3,
             Shape::Arc { .. } => problem.dimension == 2,
-            Shape::Joint { sort, .. } => problem.dimension == 3 || sort.is_in_plane(),
             _ => true,
         };
         if !there {
@@ -587,6 +591,14 @@ pub(super) fn check_names(problem: &super::Problem) -> Result<(), ProblemError> 
                 },
             });
         }
+    }
+    if let Err((index, fault)) = constraint::check_joints(problem) {
+        return Err(ProblemError::Object {
+            index,
+            what: what(problem.dimension, &problem.objects[index].shape),
+            name: problem.objects[index].name.clone(),
+            fault,
+        });
     }
     let mut seen = HashSet::new();
     for (index, constraint) in problem.constraints.iter().enumerate() {

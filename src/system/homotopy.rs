@@ -6,7 +6,7 @@ use crate::equations::{Form, Product, Ring, left_side, slopes};
 use crate::interval::vector::distance;
 use crate::interval::{Interval, ZERO, enclose, enclose_rational, point};
 use crate::places::{Each as _, array};
-use crate::problem::{Distance, Problem, Shape, Target};
+use crate::problem::{Decimal, Distance, Problem, Shape, Target};
 
 /// Two points at a given distance, as places: `point * dimension` of either.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -558,7 +558,13 @@ impl Homotopy {
 /// distance of the sketch's points from their middle.
 pub(crate) fn typical_length(problem: &Problem) -> f64 {
     let mean = if problem.distances.is_empty() {
-        let places = problem.places();
+        let mut places = problem.places();
+        places.extend(problem.objects.iter().filter_map(|o| match &o.shape {
+            Shape::Body {
+                place: Some(pose), ..
+            } => Some(pose.at.each_ref().map(Decimal::to_f64)),
+            _ => None,
+        }));
         let n = places.len().max(1) as f64;
         let middle: [f64; 3] = array(|k| places.iter().map(|p| p[k]).sum::<f64>() / n);
         let mean = places.iter().map(|p| distance(*p, middle)).sum::<f64>() / n;

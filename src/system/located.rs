@@ -235,7 +235,7 @@ fn joint_of(
     let along = if dimension == 2 { x } else { z };
     Located::Joint {
         turn: sort.turns().then(turn),
-        travel: (sort.travels() || sort == JointSort::Planar).then(|| dot(&apart, along)),
+        travel: sort.travels().then(|| dot(&apart, along)),
     }
 }
 

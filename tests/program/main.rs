@@ -8,6 +8,7 @@ mod command_line;
 #[cfg(unix)]
 mod equations;
 mod help;
+mod joints;
 mod json_schema;
 mod motion;
 mod page;

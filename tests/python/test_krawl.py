@@ -161,6 +161,21 @@ def test_points_are_dragged():
         session.drag({"X": (1, 2)})
 
 
+def test_robots_and_joints():
+    arm = {
+        "name": "arm",
+        "dimension": 3,
+        "robots": {"r": [{"d": 0.4, "alpha": 90}, {"a": 0.3}, {"a": 0.2}]},
+        "constraints": {"turns": [["r_j1", 30], ["r_j2", 20], ["r_j3", -50]]},
+    }
+    found = krawl.complete(arm)
+    assert found.status == "complete" and len(found.solutions) == 1
+    joints = found.solutions[0].joints
+    assert [round(joints[f"r_j{k}"]["turn"], 9) for k in (1, 2, 3)] == [30, 20, -50]
+    edited = krawl.edit("docs/examples/slider-crank.toml", {"O": 90})
+    assert edited.status == "reached" and abs(edited.joints["S"]["travel"] - 8**0.5) < 1e-12
+
+
 def test_bad_options_say_what_is_wrong():
     with pytest.raises(krawl.Error, match="space"):
         krawl.solve(OCTAHEDRON, space="outer")

@@ -16,6 +16,7 @@ mod equations;
 mod explore;
 mod exports;
 mod falling_apart;
+mod joints;
 mod mechanisms;
 mod miscounted;
 mod more_than_square;

@@ -8,6 +8,13 @@ from typing import Any, Optional
 import numpy as np
 
 
+def _joints(objects: dict) -> dict:
+    """Of objects the joints, each number as the middle of its box."""
+    middle = lambda x: x[0] + 0.5 * (x[1] - x[0]) if isinstance(x, list) else x  # noqa: E731
+    kept = lambda at: {key: middle(at[key]) for key in ("turn", "travel") if key in at}  # noqa: E731
+    return {name: kept(at) for name, at in objects.items() if kept(at)}
+
+
 @dataclass(frozen=True)
 class Figure:
     """Points, each in a box."""
@@ -47,6 +54,11 @@ class Solution(Figure):
         objects = self.data.get("objects") or {}
         middle = lambda value: value[0] + 0.5 * (value[1] - value[0])  # noqa: E731
         return {name: middle(at["value"]) for name, at in objects.items() if "value" in at}
+
+    @property
+    def joints(self) -> dict:
+        """By how many degrees each joint is turned (``turn``) and how far it is drawn out (``travel``), by name (docs/joints.md)."""
+        return _joints(self.data.get("objects") or {})
 
     @property
     def folds(self) -> Optional[int]:
@@ -129,6 +141,11 @@ class Edited:
     def unknowns(self) -> dict:
         """The values of unknown numbers by name in the figure (docs/equations.md)."""
         return self.data.get("unknowns", {})
+
+    @property
+    def joints(self) -> dict:
+        """By how many degrees each joint is turned (``turn``) and how far it is drawn out (``travel``), by name (docs/joints.md)."""
+        return _joints(self.data.get("joints") or {})
 
     @property
     def dragged(self) -> Optional[dict]:

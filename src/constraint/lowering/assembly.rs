@@ -5,7 +5,7 @@ use super::super::assembly::{
 };
 use super::super::frame::{self, Vector};
 use super::super::objects::turned;
-use super::super::quadratic::{Entry, Form, Posed, Product, value};
+use super::super::quadratic::{Entry, Form, Posed, Product, Role, value};
 use super::{Arrow, Fault, Lowering, Parity, Place};
 use crate::interval::Real;
 use crate::order::InOrder;
@@ -158,6 +158,16 @@ impl Lowering<'_> {
         Ok(made)
     }
 
+    /// An unknown for each coordinate of a vector. No reversal of an axis changes it: bodies with joints are where they are, and not mirrored.
+    fn components(&mut self, name: &str, power: i32, at: Exact) -> [Entry; 3] {
+        let mut entries = [Entry::Zero; 3];
+        let axes = ["x", "y", "z"].into_iter().zip(at).take(self.dimension());
+        for ((axis, at), entry) in axes.zip(&mut entries) {
+            *entry = self.unknown(format!("{name}, {axis}"), Role::Free, power, [false; 3], at);
+        }
+        entries
+    }
+
     /// A vector that stands.
     fn standing(&mut self, name: &str, v: &Exact) -> Arrow {
         let forms = from_fn(|k| match v[k].as_rational() {
@@ -183,7 +193,7 @@ impl Lowering<'_> {
     fn moving(&mut self, name: &str, at: Exact) -> Arrow {
         let at = at.each_ref().map(near);
         let seen = at.clone().map(Real::from);
-        let entries = self.coordinates(name, 0, false, seen);
+        let entries = self.components(name, 0, seen);
         Arrow {
             forms: entries.each(value),
             at,
@@ -266,6 +276,7 @@ impl Lowering<'_> {
             arrow
         };
         let zero = Real::zero();
+        let stands = |axes: [usize; 2]| axes.map(|axis| plan.axes[axis].stands.is_some());
         // What is told already first, so that this group tells the others.
         let mut axes = of.axes.clone();
         axes.order_by_key(|&(axis, _)| !is_told[axis]);
@@ -277,7 +288,11 @@ impl Lowering<'_> {
                 self.have_product(&x, &y, zero.clone());
                 (basis, [x, y], zero, 0)
             }
-            [(first, e), (second, f), ..] if !is_told[*second] && are_apart(e, f) => {
+            // Where both are told their product is all that is left to say, however near they are.
+            [(first, e), (second, f), ..]
+                if stands([*first, *second]) != [true, true]
+                    && (is_told[*second] || are_apart(e, f)) =>
+            {
                 let product = dot(e, f);
                 let arrows = [first, second].map(|&axis| made.axes[axis].clone());
                 self.have_product(&arrows[0], &arrows[1], product.clone());
@@ -303,6 +318,7 @@ impl Lowering<'_> {
                 constant: none(),
                 parts: vec![(Real::whole(1), arrow)],
             };
+            self.begin(plan.axes[*axis].joint);
             let by = self.vector(&frame, direction);
             self.vanish_all(&name, told.minus(by), 0);
             is_told[*axis] = true;
@@ -384,7 +400,7 @@ impl Lowering<'_> {
             return Origin::Stands(at);
         }
         let name = format!("the origin of {}", self.problem.objects[body].name);
-        let entries = self.coordinates(&name, 1, false, at.clone());
+        let entries = self.components(&name, 1, at.clone());
         Origin::Moves(Place {
             entries,
             at: at.each_ref().map(near),
@@ -425,7 +441,7 @@ impl Lowering<'_> {
     /// A vector as three numbers that equations can multiply.
     fn as_place(&mut self, name: &str, sum: Sum) -> Place {
         let at = sum.at();
-        let entries = self.coordinates(name, 1, false, at.clone().map(Real::from));
+        let entries = self.components(name, 1, at.clone().map(Real::from));
         let place = Place { entries, at };
         let told = Sum {
             constant: none(),
@@ -621,6 +637,12 @@ impl Lowering<'_> {
                     (along.each_ref().map(|arrow| arrow.forms).to_vec(), axes)
                 }
             };
+            let told = along.iter().flatten().flat_map(|form| form.entries());
+            let told = told
+                .map(|(entry, _)| entry)
+                .chain(origin.into_iter().flatten());
+            let told = told.filter(|entry| entry.unknown().is_some()).collect();
+            self.objects.insert(member.body, told);
             self.tail.poses.push(Posed {
                 body: member.body,
                 origin,

@@ -60,8 +60,10 @@ impl Lowering<'_> {
                     pairs.extend(along.iter().map(|&e| [e, along[0]]));
                 }
                 Shape::FreePlane { .. } => pairs.extend(entries.iter().map(|&e| [e, entries[0]])),
-                // x and −x are two numbers.
-                Shape::Number { .. } => pairs.extend(entries.iter().map(|&e| [e, Entry::Zero])),
+                // x and −x are two numbers, and a body is where its frame is.
+                Shape::Number { .. } | Shape::Body { .. } => {
+                    pairs.extend(entries.iter().map(|&e| [e, Entry::Zero]))
+                }
                 _ => {}
             }
         }

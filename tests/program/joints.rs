@@ -1,0 +1,144 @@
+//! Joints on the command line: what is wrong with them is said with its place, and figures are written into the file.
+
+use crate::krawl;
+use std::fs;
+
+fn run(arguments: &[&str]) -> (Option<i32>, String) {
+    let (code, text, error) = krawl(arguments);
+    (code, text + &error)
+}
+
+const SLIDER: &str = "docs/examples/slider-crank.toml";
+
+#[test]
+fn what_is_wrong_is_said_with_its_place() {
+    let directory = tempfile::tempdir().unwrap();
+    let file = directory.path().join("linkage.toml");
+    let file = file.to_str().unwrap();
+    let text = fs::read_to_string(SLIDER).unwrap();
+    for (old, new, words) in [
+        (
+            "A = { revolute",
+            "A = { hinge",
+            "linkage.toml:18: joints.A.hinge: there is no such key",
+        ),
+        (
+            "[\"rod\", \"slide\"]",
+            "[\"rod\", \"slid\"]",
+            "linkage.toml:19: joints: the joint `B`: there is no point or object `slid`; did you mean `slide`?",
+        ),
+        (
+            "[\"rod\", \"slide\"]",
+            "[\"rod\"]",
+            "joints.B: must be { revolute",
+        ),
+        (
+            "[\"rod\", \"slide\"]",
+            "[\"rod\", \"rod\"]",
+            "linkage.toml:19: joints: the joint `B`: a joint is of two bodies",
+        ),
+        (
+            "[\"rod\", \"slide\"]",
+            "[\"rod\", \"A\"]",
+            "a joint is of two bodies",
+        ),
+        (
+            "prismatic",
+            "cylindrical",
+            "in the plane there are revolute, prismatic and rigid joints",
+        ),
+        (
+            "[[3, 0], [0, 0]]",
+            "[[3, 0]]",
+            "joints.B: must be { revolute",
+        ),
+        ("[[3, 0], [0, 0]]", "[[3, 0], [0, \"a\"]]", "joints.B.at"),
+        (
+            "sketch = 3.8 }",
+            "sketch = 3.8, x = [[0, 0], [1, 0]] }",
+            "the joint `S`: its z axis and its x axis are parallel, or one of them is zero",
+        ),
+        (
+            "[[\"O\", 30]]",
+            "[[\"S\", 30]]",
+            "the joint does not turn about one axis",
+        ),
+        (
+            "turns = [[\"O\", 30]]",
+            "travels = [[\"O\", 30]]",
+            "the joint does not travel",
+        ),
+        (
+            "[constraints]",
+            "[constraints]\nfixed = [\"ground\", \"slide\"]",
+            "both of its bodies stand",
+        ),
+        ("[constraints]", "[constraints]\nfixed = [\"O\"]", "fixed"),
+        (
+            "[joints]",
+            "[places]\nslid = { at = [1, 2] }\n[joints]",
+            "did you mean `slide`",
+        ),
+        (
+            "[joints]",
+            "[places]\nslide = { to = [1, 2] }\n[joints]",
+            "places.slide.to: there is no such key",
+        ),
+        (
+            "[joints]",
+            "[robots]\nr = []\n[joints]",
+            "robots.r: must be a row for each joint",
+        ),
+        (
+            "[joints]",
+            "[robots]\nr = [{ e = 2 }]\n[joints]",
+            "robots.r.e: there is no such key",
+        ),
+        (
+            "crank = { P = [1, 0] }",
+            "crank = { Q = [1, 0] }",
+            "there is no point `Q`",
+        ),
+    ] {
+        assert!(text.contains(old), "{old}");
+        fs::write(file, text.replacen(old, new, 1)).unwrap();
+        for verb in ["check", "all", "solve", "edit"] {
+            let arguments = match verb {
+                "edit" => vec![verb, file, "--set", "turns:O=40"],
+                _ => vec![verb, file],
+            };
+            let (code, said) = run(&arguments);
+            assert_eq!(code, Some(2), "{new}: {said}");
+            if verb == "check" {
+                assert!(said.contains(words), "{new}: {said}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_figure_that_is_taken_is_the_sketch_of_the_file() {
+    let directory = tempfile::tempdir().unwrap();
+    let out = directory.path().join("out.toml");
+    let out = out.to_str().unwrap();
+    let (code, said) = run(&["all", SLIDER, "--pick", "1", "--out", out]);
+    assert_eq!(code, Some(0), "{said}");
+    assert!(said.contains("joint O: turned by 30."), "{said}");
+    let written = fs::read_to_string(out).unwrap();
+    assert!(
+        written.contains("[places]\ncrank = { at = [0.0, 0.0"),
+        "{written}"
+    );
+    // The places there are the places read: nothing has to move, and they are put in place of each other.
+    let (code, said) = run(&["edit", out, "--set", "O=60", "--out", out]);
+    assert_eq!(code, Some(0), "{said}");
+    let moved = said.split("moved by more than ").nth(1);
+    assert!(
+        moved.is_none_or(|by| by.contains("e-15") || by.contains("e-16")),
+        "{said}"
+    );
+    let again = fs::read_to_string(out).unwrap();
+    assert_eq!(again.matches("[places]").count(), 1);
+    assert!(again.contains("turns = [[\"O\", 60.0]]"), "{again}");
+    assert_eq!(run(&["check", out]).0, Some(0));
+}
