@@ -156,6 +156,11 @@ pub fn load(file: &Path, sketch: Option<&str>) -> Result<Loaded, String> {
                 let problem = Problem::parse(&text, STANDARD_INPUT);
                 (Some(text), problem)
             }
+            false if is_urdf(file) => {
+                let text = text_of(file)?;
+                let problem = Problem::parse(&text, &format!("{name}, as a problem file"));
+                (Some(text), problem)
+            }
             false => (None, Problem::read(file)),
         };
         return match read {
@@ -192,6 +197,23 @@ pub fn load(file: &Path, sketch: Option<&str>) -> Result<Loaded, String> {
         fault: None,
         imported: Some((imported, bytes)),
     })
+}
+
+/// Whether a file has a robot in URDF, which is read as the problem file that it becomes.
+pub fn is_urdf(file: &Path) -> bool {
+    let extension = file.extension().unwrap_or_default();
+    extension.eq_ignore_ascii_case("urdf")
+}
+
+/// The text of a problem file, or of what a robot becomes as one.
+fn text_of(file: &Path) -> Result<String, String> {
+    let text = bytes(file)?;
+    let text = String::from_utf8(text)
+        .map_err(|_| format!("{}: is not a text in UTF-8", file.display()))?;
+    match is_urdf(file) {
+        true => import::urdf::problem_file(&text).map_err(|e| format!("{}: {e}", file.display())),
+        false => Ok(text),
+    }
 }
 
 /// Reads a sketch of another program's file.
@@ -250,7 +272,7 @@ impl Loaded {
                 import::rewrite(imported, bytes, problem, &Figure { points, radii })
             }
             None => {
-                let text = std::fs::read_to_string(file).map_err(|e| e.to_string())?;
+                let text = text_of(file)?;
                 let text = krawl::edit::rewrite(&text, problem, points, objects);
                 Ok(text.map_err(|e| e.to_string())?.into_bytes())
             }

@@ -103,6 +103,12 @@ pub(super) fn check_format(file: &Path, out: &Path) -> Result<(), String> {
     };
     let name = file.display().to_string();
     let is_problem = file == Path::new("-") || Format::of(&name).is_none();
+    if input::is_urdf(file) && of(out) != "toml" {
+        return Err(format!(
+            "{}: a robot is written as a problem file: give it the ending .toml",
+            out.display()
+        ));
+    }
     let ending = match is_problem {
         true => "toml".to_owned(),
         false => of(file),

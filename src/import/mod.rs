@@ -1,5 +1,5 @@
 //! Files of other programs, in and out: sketches of SolveSpace (`.slvs`) and FreeCAD (`.FCStd`), molecules (`.xyz`,
-//! `.mol`, `.sdf`).
+//! `.mol`, `.sdf`), robots (`.urdf`), which become problem files.
 //!
 //! A file may hold several sketches; [`list`] says which, and [`read`] takes one. What it says becomes a
 //! [`Problem`] in the sketch's own frame, with the kinds of constraints that krawl has. A kind that krawl does not
@@ -29,6 +29,8 @@ mod drawing;
 mod freecad;
 mod molecule;
 mod slvs;
+#[cfg(feature = "freecad")]
+pub mod urdf;
 
 use crate::complete::Surplus;
 use crate::problem::{Decimal, Problem, Target};

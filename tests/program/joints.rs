@@ -142,3 +142,66 @@ fn a_figure_that_is_taken_is_the_sketch_of_the_file() {
     assert!(again.contains("turns = [[\"O\", 60.0]]"), "{again}");
     assert_eq!(run(&["check", out]).0, Some(0));
 }
+
+/// A robot in URDF is what the same arm is as a table of Denavit and Hartenberg, and is written as a problem file.
+#[test]
+fn a_robot_in_urdf_is_read() {
+    let directory = tempfile::tempdir().unwrap();
+    let (urdf, out) = (
+        directory.path().join("arm.urdf"),
+        directory.path().join("arm.toml"),
+    );
+    let (urdf, out) = (urdf.to_str().unwrap(), out.to_str().unwrap());
+    let joint = |k: usize, kind: &str, origin: &str, axis: &str| {
+        format!(
+            "<joint name=\"j{k}\" type=\"{kind}\"><parent link=\"l{}\"/><child link=\"l{k}\"/><origin {origin}/><axis xyz=\"{axis}\"/></joint>\n",
+            k - 1
+        )
+    };
+    let links: String = (0..4).map(|k| format!("<link name=\"l{k}\"/>\n")).collect();
+    let joints = [
+        joint(1, "revolute", "xyz=\"0 0 0.4\"", "0 0 1"),
+        joint(2, "revolute", "xyz=\"0 0 0\" rpy=\"1.5708 0 0\"", "0 0 1"),
+        joint(3, "revolute", "xyz=\"0.3 0 0\"", "0 0 1"),
+    ];
+    fs::write(
+        urdf,
+        format!("<robot name=\"arm\">\n{links}{}</robot>", joints.concat()),
+    )
+    .unwrap();
+    let set = ["--set", "j1=30", "--set", "j2=20", "--set", "j3=-50"];
+    let (code, said) = run(&[&["edit", urdf][..], &set, &["--out", out]].concat());
+    assert_eq!(code, Some(0), "{said}");
+    let table = directory.path().join("table.toml");
+    let table = table.to_str().unwrap();
+    let text = "name = \"arm\"\ndimension = 3\n[robots]\nl = [{ d = 0.4, alpha = 90 }, { a = 0.3 }]\n\
+        [constraints]\nturns = [[\"l_j1\", 30], [\"l_j2\", 20]]\n";
+    fs::write(table, text).unwrap();
+    let (_, other) = run(&["all", table]);
+    // Where the second link of the table ends the third one of the other begins.
+    let place = |text: &str, body: &str| -> Vec<f64> {
+        let line = text
+            .lines()
+            .find(|line| line.contains(&format!("body {body}: at ")))
+            .unwrap();
+        let numbers = line.split(['(', ')']).nth(1).unwrap();
+        numbers.split(", ").map(|x| x.parse().unwrap()).collect()
+    };
+    let (a, b) = (place(&said, "l3"), place(&other, "l_2"));
+    assert!(
+        a.iter().zip(&b).all(|(x, y)| (x - y).abs() < 1e-9),
+        "{said}\n{other}"
+    );
+    assert_eq!(run(&["check", out]).0, Some(0));
+    let (code, said) = run(&["edit", urdf, "--set", "j1=30", "--out", urdf]);
+    assert!(
+        code == Some(2) && said.contains("give it the ending .toml"),
+        "{said}"
+    );
+    fs::write(urdf, "<robot><link name=\"a\"/></robot>").unwrap();
+    let (code, said) = run(&["check", urdf]);
+    assert!(
+        code == Some(2) && said.contains("there is no joint in it"),
+        "{said}"
+    );
+}

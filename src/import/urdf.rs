@@ -1,0 +1,294 @@
+//! Robots in URDF, the Unified Robot Description Format, as problem files.
+//!
+//! Links become bodies and joints joints; each joint that moves has the value 0 for a dimension, at which URDF draws it. What links look like, what they weigh and how far
+//! joints go is not read. Angles are radians: one that is a multiple of π/2, rounded to the digits that it is written with (three at least), is taken for that multiple.
+
+use crate::interval::vector::{cross, dot, length};
+use crate::problem::{Decimal, JointSort, Pose};
+use roxmltree::{Document, Node};
+use std::collections::HashSet;
+use std::f64::consts::FRAC_PI_2;
+use std::fmt::Write;
+
+/// The robot of a file as the text of a problem file (docs/joints.md).
+///
+/// # Errors
+/// What is wrong with it, and in which line.
+pub fn problem_file(xml: &str) -> Result<String, String> {
+    let document = Document::parse(xml).map_err(|error| format!("is no XML: {error}"))?;
+    let root = document.root_element();
+    if root.tag_name().name() != "robot" {
+        return Err(format!(
+            "line {}: the outermost element of a URDF file is `robot`, and not `{}`",
+            line(root),
+            root.tag_name().name()
+        ));
+    }
+    let children = |tag: &'static str| {
+        let all = root.children();
+        all.filter(move |node| node.tag_name().name() == tag)
+    };
+    let mut names = HashSet::new();
+    let (mut bodies, mut joints) = (Vec::new(), String::new());
+    let (mut turns, mut travels) = (Vec::new(), Vec::new());
+    for link in children("link") {
+        let name = attribute(link, "name")?;
+        names.insert(name.to_owned());
+        bodies.push(name.to_owned());
+    }
+    // What is first stands: the link that is no other one's child.
+    let mut is_child = HashSet::new();
+    for joint in children("joint") {
+        is_child.insert(end(joint, "child")?);
+    }
+    bodies.sort_by_key(|body| is_child.contains(body));
+    for joint in children("joint") {
+        let own = attribute(joint, "name")?;
+        let name = match names.contains(own) {
+            true => format!("{own}_joint"),
+            false => own.to_owned(),
+        };
+        let sort = match attribute(joint, "type")? {
+            "revolute" | "continuous" => JointSort::Revolute,
+            "prismatic" => JointSort::Prismatic,
+            "fixed" => JointSort::Rigid,
+            "planar" => JointSort::Planar,
+            other => {
+                return Err(format!(
+                    "line {}: the joint `{own}` is of the type `{other}`, which is not read: revolute, continuous, prismatic, planar and fixed are",
+                    line(joint)
+                ));
+            }
+        };
+        if joint
+            .children()
+            .any(|node| node.tag_name().name() == "mimic")
+        {
+            return Err(format!(
+                "line {}: the joint `{own}` follows another one (`mimic`), which is not read",
+                line(joint)
+            ));
+        }
+        let ends = [end(joint, "parent")?, end(joint, "child")?];
+        if let Some(unknown) = ends.iter().find(|end| !names.contains(*end)) {
+            return Err(format!(
+                "line {}: the joint `{own}` is of the link `{unknown}`, which there is not",
+                line(joint)
+            ));
+        }
+        let frames = frames(joint, sort)?;
+        match sort {
+            JointSort::Revolute => turns.push(name.clone()),
+            JointSort::Prismatic => travels.push(name.clone()),
+            _ => {}
+        }
+        let [first, second] = ends.each_ref().map(|end| quoted(end));
+        let pair = |of: fn(&Pose) -> &[Decimal; 3]| {
+            let [a, b] = frames.each_ref().map(|frame| {
+                let [x, y, z] = of(frame).each_ref().map(Decimal::to_string);
+                format!("[{x}, {y}, {z}]")
+            });
+            format!("[{a}, {b}]")
+        };
+        let _ = writeln!(
+            joints,
+            "{} = {{ {} = [{first}, {second}], at = {}, z = {}, x = {} }}",
+            toml_edit::Key::new(&name),
+            sort.key(),
+            pair(|p| &p.at),
+            pair(|p| &p.z),
+            pair(|p| &p.x)
+        );
+    }
+    if joints.is_empty() {
+        return Err("there is no joint in it".to_owned());
+    }
+    let mut out = String::new();
+    let name = root.attribute("name").unwrap_or("robot");
+    let _ = writeln!(out, "name = {}\ndimension = 3\n\n[bodies]", quoted(name));
+    for body in bodies {
+        let _ = writeln!(out, "{} = {{}}", toml_edit::Key::new(&body));
+    }
+    let _ = write!(out, "\n[joints]\n{joints}\n[constraints]\n");
+    for (key, names) in [("turns", turns), ("travels", travels)] {
+        let entries: Vec<String> = names
+            .iter()
+            .map(|name| format!("[{}, 0]", quoted(name)))
+            .collect();
+        if !entries.is_empty() {
+            let _ = writeln!(out, "{key} = [{}]", entries.join(", "));
+        }
+    }
+    Ok(out)
+}
+
+fn quoted(text: &str) -> String {
+    toml_edit::Value::from(text).to_string()
+}
+
+fn line(node: Node) -> u32 {
+    node.document().text_pos_at(node.range().start).row
+}
+
+fn attribute<'a>(node: Node<'a, '_>, name: &str) -> Result<&'a str, String> {
+    node.attribute(name).ok_or_else(|| {
+        let tag = node.tag_name().name();
+        format!("line {}: `{tag}` has no `{name}`", line(node))
+    })
+}
+
+/// A link of a joint.
+fn end(joint: Node, which: &str) -> Result<String, String> {
+    let mut children = joint.children();
+    let end = children.find(|node| node.tag_name().name() == which);
+    let end = end.ok_or_else(|| {
+        let name = joint.attribute("name").unwrap_or("?");
+        format!("line {}: the joint `{name}` has no `{which}`", line(joint))
+    })?;
+    Ok(attribute(end, "link")?.to_owned())
+}
+
+/// Three numbers of an attribute as they are written; `None`: there is no such.
+fn three(joint: Node, element: &str, name: &str) -> Result<Option<[Decimal; 3]>, String> {
+    let mut children = joint.children();
+    let Some(node) = children.find(|node| node.tag_name().name() == element) else {
+        return Ok(None);
+    };
+    let Some(text) = node.attribute(name) else {
+        return Ok(None);
+    };
+    let numbers: Vec<Decimal> = text
+        .split_whitespace()
+        .map(|number| number.parse())
+        .collect::<Result<_, _>>()
+        .map_err(|error| format!("line {}: {name}=\"{text}\": {error}", line(node)))?;
+    let three = <[Decimal; 3]>::try_from(numbers);
+    let wanted = |_| {
+        format!(
+            "line {}: {name}=\"{text}\": three numbers are wanted",
+            line(node)
+        )
+    };
+    three.map(Some).map_err(wanted)
+}
+
+/// The sine and cosine of an angle in radians.
+fn turn(angle: &Decimal) -> (f64, f64) {
+    let x = angle.to_f64();
+    let text = angle.text();
+    let digits = text.split_once('.').map_or(0, |(_, behind)| {
+        behind.chars().take_while(char::is_ascii_digit).count()
+    });
+    let quarters = (x / FRAC_PI_2).round();
+    let off = (x - quarters * FRAC_PI_2).abs();
+    // Half a unit of the last digit, and what a float is off by.
+    let is_rounded = x == 0.0 || digits >= 3 && off <= 0.5 * 10f64.powi(-(digits as i32)) + 1e-15;
+    match (is_rounded, quarters.rem_euclid(4.0) as u8) {
+        (true, 0) => (0.0, 1.0),
+        (true, 1) => (1.0, 0.0),
+        (true, 2) => (0.0, -1.0),
+        (true, _) => (-1.0, 0.0),
+        (false, _) => x.sin_cos(),
+    }
+}
+
+/// The frames of a joint in the link before it and in the one behind it.
+fn frames(joint: Node, sort: JointSort) -> Result<[Pose; 2], String> {
+    let zero = || [0, 0, 0].map(Decimal::from);
+    let at = three(joint, "origin", "xyz")?.unwrap_or_else(zero);
+    let angles = three(joint, "origin", "rpy")?.unwrap_or_else(zero);
+    let [(sr, cr), (sp, cp), (sy, cy)] = angles.each_ref().map(turn);
+    // About the axes of the link before: first x, then y, then z.
+    let columns = [
+        [cy * cp, sy * cp, -sp],
+        [cy * sp * sr - sy * cr, sy * sp * sr + cy * cr, cp * sr],
+        [cy * sp * cr + sy * sr, sy * sp * cr - cy * sr, cp * cr],
+    ];
+    let turned = |v: [f64; 3]| -> [f64; 3] {
+        std::array::from_fn(|k| (0..3).map(|i| v[i] * columns[i][k]).sum::<f64>() + 0.0)
+    };
+    let axis = match sort {
+        JointSort::Rigid => [0.0, 0.0, 1.0],
+        _ => three(joint, "axis", "xyz")?
+            .map_or([1.0, 0.0, 0.0], |axis| axis.each_ref().map(Decimal::to_f64)),
+    };
+    if length(axis) == 0.0 {
+        return Err(format!("line {}: the axis is 0 0 0", line(joint)));
+    }
+    // An axis of the link that is well across.
+    let all = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let across = all.into_iter().max_by(|&a, &b| {
+        let far = |v| length(cross(v, axis)) - 0.1 * dot(v, [0.0, 1.0, 2.0]);
+        far(a).total_cmp(&far(b))
+    });
+    let x = across.expect("there are three axes");
+    let three = |v: [f64; 3]| v.map(|x| Decimal::try_from(x).unwrap_or(Decimal::from(0)));
+    Ok([
+        Pose {
+            at,
+            z: three(turned(axis)),
+            x: three(turned(x)),
+        },
+        Pose {
+            at: zero(),
+            z: three(axis),
+            x: three(x),
+        },
+    ])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::problem::Problem;
+
+    #[test]
+    fn right_angles_are_told_by_their_digits() {
+        let of = |text: &str| turn(&text.parse().unwrap());
+        for text in ["1.5708", "1.571", "1.57079632679", "1.5707963267948966"] {
+            assert_eq!(of(text), (1.0, 0.0), "{text}");
+        }
+        assert_eq!(of("-3.14159"), (0.0, -1.0));
+        assert_eq!(of("-1.5708"), (-1.0, 0.0));
+        for text in ["1.57", "1.5709", "1.57079", "1.5707963268949"] {
+            assert_eq!(of(text), text.parse::<f64>().unwrap().sin_cos(), "{text}");
+        }
+    }
+
+    #[test]
+    fn a_robot_becomes_a_problem() {
+        let xml = r#"<robot name="two">
+            <link name="arm"/><link name="base"/><link name="hand"/>
+            <joint name="shoulder" type="continuous"><parent link="base"/><child link="arm"/>
+                <origin xyz="0 0 0.5" rpy="1.5708 0 0"/><axis xyz="0 1 0"/></joint>
+            <joint name="hand" type="prismatic"><parent link="arm"/><child link="hand"/><origin xyz="0.25 0 0"/></joint>
+        </robot>"#;
+        let text = problem_file(xml).unwrap();
+        let problem = Problem::parse(&text, "two.toml").unwrap();
+        // The one that is no child stands, and a joint that has a link's name gets another.
+        assert_eq!(problem.objects[problem.standing_bodies()[0]].name, "base");
+        assert_eq!(problem.objects.last().unwrap().name, "hand_joint");
+        assert!(text.contains("z = [[0, 0, 1], [0, 1, 0]]"), "{text}");
+        for (old, new, words) in [
+            (
+                "continuous",
+                "floating",
+                "line 3: the joint `shoulder` is of the type `floating`",
+            ),
+            ("<parent link=\"base\"/>", "", "has no `parent`"),
+            (
+                "link=\"arm\"/><child",
+                "link=\"leg\"/><child",
+                "line 5: the joint `hand` is of the link `leg`",
+            ),
+            ("0.25 0 0", "0.25 0", "three numbers"),
+            ("0.25 0 0", "0.25 a 0", "line 5"),
+            ("</robot>", "", "is no XML"),
+            ("0 1 0", "0 0 0", "the axis is 0 0 0"),
+            ("robot", "sdf", "and not `sdf`"),
+        ] {
+            let said = problem_file(&xml.replace(old, new)).unwrap_err();
+            assert!(said.contains(words), "{said}");
+        }
+    }
+}
