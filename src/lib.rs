@@ -98,8 +98,10 @@
 //! - [`report`]: tables, JSON, pictures, progress
 //! - `cli`: the command line of the program
 //!
-//! Those that have no page here are this package's own; where they are public they are so for its program, its tests and
-//! `crates/lab`, which has what the papers describe and krawl does without.
+//! [`import`], [`explore`], [`compare`], [`report`] and `cli` are this package's; all others are those of the package
+//! `krawl-solver` in `crates/solver`, and only they are built for speed. Those that have no page here are these packages'
+//! own; where they are public they are so for the program, the tests and `crates/lab`, which has what the papers describe
+//! and krawl does without.
 
 #![warn(missing_docs)]
 
