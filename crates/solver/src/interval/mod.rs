@@ -11,6 +11,7 @@
 pub mod along;
 pub mod angle;
 pub mod complex;
+mod digits;
 mod double_double;
 mod enclosure;
 #[cfg(any(test, not(hardware_intervals), feature = "portable"))]
@@ -19,6 +20,8 @@ mod real;
 pub mod rounding;
 pub mod vector;
 
+#[doc(hidden)]
+pub use digits::certain_digits;
 pub use double_double::{DoubleDouble, at_least, gamma_double};
 pub use enclosure::{enclose, enclose_rational};
 #[cfg(all(hardware_intervals, not(feature = "portable")))]
