@@ -98,65 +98,38 @@
 //! - [`report`]: tables, JSON, pictures, progress
 //! - `cli`: the command line of the program
 //!
-//! Those that have no page here are this package's own; where they are public they are so for its program, its tests and
-//! `crates/lab`, which has what the papers describe and krawl does without.
+//! [`import`], [`explore`], [`compare`], [`report`] and `cli` are this package's; all others are those of the package
+//! `krawl-solver` in `crates/solver`, and only they are built for speed. Those that have no page here are these packages'
+//! own; where they are public they are so for the program, the tests and `crates/lab`, which has what the papers describe
+//! and krawl does without.
 
 #![warn(missing_docs)]
 
-/// Lets errors print as words where programs print them with `{:?}`, as `main` does.
-macro_rules! debug_in_words {
-    ($error:ty) => {
-        impl std::fmt::Debug for $error {
-            fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-                std::fmt::Display::fmt(self, f)
-            }
-        }
-    };
-}
-pub(crate) use debug_in_words;
-
-// Tests in here and in tests/ draw the same problems, and the command line speaks of the library as other programs do.
-#[cfg(any(test, feature = "cli"))]
+// The command line speaks of the library as other programs do.
+#[cfg(feature = "cli")]
 extern crate self as krawl;
 
-pub mod blocks;
-pub mod certificate;
+// What computes and proves is a package of its own, so that it alone is built for speed.
+pub use krawl_solver::{
+    blocks, certificate, complete, complex, constraint, edit, equations, generate, interval,
+    motion, problem, system, tolerance, track,
+};
+#[doc(hidden)]
+pub use krawl_solver::{elimination, linalg, plan, remarks};
+
+use krawl_solver::{debug_in_words, order, places};
+#[cfg(feature = "explore")]
+use krawl_solver::{hexadecimal, random};
+
 // In the library, so that what both need of generic code is made once.
 #[cfg(feature = "cli")]
 #[doc(hidden)]
 pub mod cli;
 pub mod compare;
-pub mod complete;
-pub mod complex;
-pub mod constraint;
-mod decimal;
-pub mod edit;
-#[doc(hidden)]
-pub mod elimination;
-pub mod equations;
 #[cfg(feature = "explore")]
 pub mod explore;
-pub mod generate;
-mod hexadecimal;
 pub mod import;
-pub mod interval;
-#[doc(hidden)]
-pub mod linalg;
-pub mod motion;
-mod order;
-mod places;
-#[doc(hidden)]
-pub mod plan;
-pub mod problem;
-mod random;
-#[doc(hidden)]
-pub mod remarks;
 pub mod report;
-mod residues;
-mod statement;
-pub mod system;
-pub mod tolerance;
-pub mod track;
 
 /// The library of points and motions that the interface speaks, in the version it speaks.
-pub use nalgebra;
+pub use krawl_solver::nalgebra;

@@ -93,7 +93,7 @@ pub fn problem_file(xml: &str) -> Result<String, String> {
         let _ = writeln!(
             joints,
             "{} = {{ {} = [{first}, {second}], at = {}, z = {}, x = {} }}",
-            toml_edit::Key::new(&name),
+            quoted(&name),
             sort.key(),
             pair(|p| &p.at),
             pair(|p| &p.z),
@@ -107,7 +107,7 @@ pub fn problem_file(xml: &str) -> Result<String, String> {
     let name = root.attribute("name").unwrap_or("robot");
     let _ = writeln!(out, "name = {}\ndimension = 3\n\n[bodies]", quoted(name));
     for body in bodies {
-        let _ = writeln!(out, "{} = {{}}", toml_edit::Key::new(&body));
+        let _ = writeln!(out, "{} = {{}}", quoted(&body));
     }
     let _ = write!(out, "\n[joints]\n{joints}\n[constraints]\n");
     for (key, names) in [("turns", turns), ("travels", travels)] {
@@ -122,8 +122,9 @@ pub fn problem_file(xml: &str) -> Result<String, String> {
     Ok(out)
 }
 
+/// A text in quotes; what JSON escapes TOML escapes likewise.
 fn quoted(text: &str) -> String {
-    toml_edit::Value::from(text).to_string()
+    serde_json::Value::from(text).to_string()
 }
 
 fn line(node: Node) -> u32 {

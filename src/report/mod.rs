@@ -5,7 +5,6 @@ mod blocks;
 mod comparison;
 mod complete;
 mod complex;
-mod digits;
 mod drawing;
 mod edit;
 #[cfg(feature = "explore")]
@@ -27,6 +26,8 @@ mod table;
 mod theorem;
 mod tolerance;
 
+#[doc(inline)]
+pub use crate::interval::certain_digits;
 #[cfg(feature = "cli")]
 pub use blocks::BlockRuns;
 #[cfg(feature = "cli")]
@@ -36,7 +37,6 @@ pub use complete::{
     among_in_words, complete_to_json, complete_to_table, complete_to_value, cover_theorem,
 };
 pub use complex::{complex_set_theorem, complex_to_json, complex_to_table};
-pub use digits::certain_digits;
 pub use edit::{
     account_in_words, alone_in_words, alone_to_value, decomposition_in_words, edit_in_words,
     edit_to_document, edit_to_json, edit_to_table, edit_to_value, figure_to_value,

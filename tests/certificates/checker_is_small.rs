@@ -4,11 +4,11 @@ use std::fs;
 use std::path::PathBuf;
 
 fn sources() -> Vec<(PathBuf, String)> {
-    let files = fs::read_dir("src/certificate/checker").unwrap();
+    let files = fs::read_dir("crates/solver/src/certificate/checker").unwrap();
     let mut paths: Vec<PathBuf> = files.map(|file| file.unwrap().path()).collect();
     paths.extend(
         ["format.rs", "head.rs", "reader.rs", "verdict.rs"]
-            .map(|f| PathBuf::from("src/certificate").join(f)),
+            .map(|f| PathBuf::from("crates/solver/src/certificate").join(f)),
     );
     let read = |path: PathBuf| {
         let text = fs::read_to_string(&path).unwrap();
@@ -49,7 +49,7 @@ fn the_checker_uses_only_the_problem_the_intervals_and_the_equations() {
     }
     // And what those use: nothing above them.
     for folder in ["statement", "problem", "constraint", "interval", "system"] {
-        for file in fs::read_dir(format!("src/{folder}")).unwrap() {
+        for file in fs::read_dir(format!("crates/solver/src/{folder}")).unwrap() {
             let path = file.unwrap().path();
             if path.is_file() {
                 let text = fs::read_to_string(&path).unwrap();
@@ -180,14 +180,14 @@ fn the_check_of_complex_sets_is_short_and_its_own() {
         "certificate",
     ];
     let with_guess = [&own[..], &["elimination"]].concat();
-    assert!(lines_of("src/certificate/complex", &with_guess) <= 1100);
+    assert!(lines_of("crates/solver/src/certificate/complex", &with_guess) <= 1100);
 }
 
 /// The checks of covers use nothing of the searches; that of coordinates has the kernel's equations and the test
 /// for one figure of the checker of certificates.
 #[test]
 fn the_checks_of_covers_are_short_and_their_own() {
-    let cover = "src/certificate/cover";
+    let cover = "crates/solver/src/certificate/cover";
     // An example runs the search.
     assert!(lines_of(cover, &["problem", "constraint", "certificate"]) <= 120);
     // Of certificates it has the bounds on intervals' halves, and a guess of an inverse.

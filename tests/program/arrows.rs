@@ -1,5 +1,5 @@
 //! The modules of the library stand in an order, which the documentation of the crate gives, and each uses only those
-//! before it.
+//! before it. Those of both packages, krawl and crates/solver, stand in that one order.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -101,11 +101,12 @@ fn names(rest: &str) -> Vec<&str> {
     names
 }
 
-/// The modules that a file's code names, which is so deep below the root: by a path from it, or by one that climbs to it.
+/// The modules that a file's code names, which is so deep below the root: by a path from it, or from the root of the
+/// other package, or by one that climbs to it.
 fn named(code: &str, depth: usize) -> Vec<String> {
     let up = "super::".repeat(depth);
     let mut all = Vec::new();
-    for root in ["crate::", "krawl::", &up] {
+    for root in ["crate::", "krawl::", "krawl_solver::", &up] {
         for (at, _) in code.match_indices(root) {
             let before = &code[..at];
             let is_part = before.ends_with(|c: char| c.is_alphanumeric() || c == '_' || c == ':');
@@ -121,7 +122,7 @@ fn named(code: &str, depth: usize) -> Vec<String> {
     all
 }
 
-/// All files of a folder, and what lies below, that are not only there in tests, with their code.
+/// All files of a folder, and what lies below, with their code.
 fn sources(folder: &Path, found: &mut BTreeMap<String, String>) {
     for entry in fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
@@ -134,6 +135,9 @@ fn sources(folder: &Path, found: &mut BTreeMap<String, String>) {
         }
     }
 }
+
+/// Where the packages have their modules.
+const PACKAGES: [&str; 2] = ["crates/solver/src", "src"];
 
 #[test]
 fn modules_use_only_those_before_them() {
@@ -151,7 +155,9 @@ fn modules_use_only_those_before_them() {
     let place = |module: &str| order.iter().position(|&name| name == module);
 
     let mut files = BTreeMap::new();
-    sources(Path::new("src"), &mut files);
+    for folder in PACKAGES {
+        sources(Path::new(folder), &mut files);
+    }
     let mut only_tests = Vec::new();
     for (path, code) in &mut files {
         let (kept, tests) = without_tests(std::mem::take(code));
@@ -169,7 +175,8 @@ fn modules_use_only_those_before_them() {
     let (mut arrows, mut wrong) = (0, Vec::new());
     for (path, code) in &files {
         let is_test = |test: &String| path == test || test.ends_with('/') && path.starts_with(test);
-        let parts: Vec<&str> = path.split('/').skip(1).collect();
+        let inside = PACKAGES.iter().find_map(|folder| path.strip_prefix(folder));
+        let parts: Vec<&str> = inside.unwrap().split('/').skip(1).collect();
         let module = parts[0].trim_end_matches(".rs");
         if ["lib", "main"].contains(&module) || only_tests.iter().any(is_test) {
             continue;
@@ -188,8 +195,18 @@ fn modules_use_only_those_before_them() {
     }
     wrong.dedup();
     assert!(wrong.is_empty(), "against the order:\n{}", wrong.join("\n"));
-    // It looked: these are many.
+    // It looked: these are many, and each module is in a package.
     assert!(order.len() > 15 && arrows > 500, "{arrows} arrows");
+    let packages = |module: &str| {
+        let is_there = |folder: &&&str| {
+            let file = format!("{folder}/{module}");
+            fs::exists(format!("{file}.rs")).unwrap() || fs::exists(file).unwrap()
+        };
+        PACKAGES.iter().filter(is_there).count()
+    };
+    for module in order {
+        assert_eq!(packages(module), 1, "packages with {module}");
+    }
 }
 
 #[test]
@@ -197,14 +214,14 @@ fn arrows_are_found_where_code_has_them() {
     let text = "use crate::{problem::{Item, Problem}, track, interval::*};\n// crate::report\nlet a = \"crate::cli\";\n\
                 fn f<'a>(x: &'a crate::system::Right) -> char { let c = '\"'; crate::edit::g(c) }\n\
                 #[cfg(test)]\nmod tests { use crate::compare::x; }\n#[cfg(test)]\nmod testing;\nuse super::super::blocks;\n\
-                let b = r#\"crate::\"explore\"#; krawl::complex::all()";
+                let b = r#\"crate::\"explore\"#; krawl::complex::all(); krawl_solver::order::o()";
     let (code, files) = without_tests(code(text));
     assert_eq!(files, ["testing"]);
     let found = named(&code, 2);
     assert_eq!(
         found,
         [
-            "problem", "track", "interval", "system", "edit", "complex", "blocks"
+            "problem", "track", "interval", "system", "edit", "complex", "order", "blocks"
         ]
     );
 }

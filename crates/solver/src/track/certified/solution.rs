@@ -1,0 +1,434 @@
+//! Boxes around the points of the path with t = 1.
+
+use super::reasons::Doubt;
+use crate::interval::rounding::{gamma, largest, round_up};
+use crate::interval::{Interval, hull, point};
+use crate::linalg::Vector;
+use crate::places::Each as _;
+use crate::system::{Homotopy, Located};
+use crate::track::full::{Equations, InverseMaker, Local, Tail};
+
+/// A box around a figure that meets the dimensions, proved to hold exactly one.
+#[derive(Debug, Clone)]
+pub struct SolutionBox {
+    /// The middle: (X, 1) in the homotopy's unit.
+    pub centre: Vector,
+    /// The low words of the middle in extended precision (it is `centre` + `low`); otherwise zero.
+    pub low: Vector,
+    /// How far the exact solution may be from it, entry by entry.
+    pub radius: Vector,
+    /// Within this distance of the middle, in every entry, there is no other solution.
+    pub alone_within: f64,
+    /// Whether t rises through 1 where the path meets it.
+    pub rising: bool,
+    /// Whether it is a flat figure at which the equations are dependent: then others are as near as one likes, which
+    /// are not on the path, and `alone_within` is zero.
+    pub is_flat: bool,
+}
+
+/// Whether two boxes hold the same solution.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Same {
+    /// They do.
+    Yes,
+    /// They do not: the boxes are disjoint, also as they are printed.
+    No,
+    /// Neither could be proved.
+    Unknown,
+}
+
+/// Work space for proving boxes.
+#[derive(Debug)]
+pub struct SolutionProver {
+    local: Local,
+    jacobian: Vec<f64>,
+    ones: Vec<f64>,
+    rounding: Vector,
+    width: Vector,
+    f: Vector,
+    v: Vector,
+    /// Where the boxes are: t = 1, or t = 0.
+    t: f64,
+    /// E(t) of every equation there.
+    targets: Vec<Interval>,
+    /// The box proved last.
+    found: SolutionBox,
+}
+
+impl SolutionProver {
+    /// Work space for proving boxes around solutions of one problem, at t = 1.
+    pub fn new(homotopy: &Homotopy, equations: &Equations) -> Self {
+        let n = equations.n();
+        SolutionProver {
+            local: Local::new(equations),
+            jacobian: vec![0.0; equations.bordered_pattern().entries()],
+            ones: vec![1.0; n],
+            rounding: equations.vector(),
+            width: equations.vector(),
+            f: equations.vector(),
+            v: equations.vector(),
+            t: 1.0,
+            targets: homotopy.rights.iter().map(|e| e.at_target()).collect(),
+            found: SolutionBox {
+                centre: equations.vector(),
+                low: equations.vector(),
+                radius: equations.vector(),
+                alone_within: 0.0,
+                rising: false,
+                is_flat: false,
+            },
+        }
+    }
+
+    /// Work space for proving boxes around figures of one problem with t = 0, the equations being F(X, a(0)) = 0.
+    /// Not in extended precision.
+    pub fn at_start(homotopy: &Homotopy, equations: &Equations) -> Self {
+        let zero = point(0.0);
+        SolutionProver {
+            t: 0.0,
+            targets: homotopy.rights.iter().map(|e| e.enclose(zero)).collect(),
+            ..Self::new(homotopy, equations)
+        }
+    }
+
+    /// Takes other target lengths.
+    pub fn set_targets(&mut self, homotopy: &Homotopy) {
+        self.targets.clear();
+        self.targets
+            .extend(homotopy.rights.iter().map(|e| e.at_target()));
+    }
+
+    /// Proves a box around the solution near `guess`, the equations being F(X, a(1)) = 0.
+    ///
+    /// Krawczyk's test with the norm max |w_i|: with Y the inverse at the middle x,
+    /// |I − Y J(x + w)| ≤ q₀ + κ |w|, so that there is at most one solution for |w| < (1 − q₀)/κ,
+    /// and exactly one, at most |Y F(x)|/(1 − q) away, where that is small enough.
+    ///
+    /// `rising`: whether t is rising where the path meets t = 1. `extended`: whether x and F(x) are to be
+    /// taken in extended precision; everything else bears relative errors of 2⁻⁵³.
+    pub fn prove(
+        &mut self,
+        equations: &Equations,
+        inverter: &mut InverseMaker,
+        guess: &[f64],
+        (rising, extended): (bool, bool),
+    ) -> Result<&SolutionBox, Doubt> {
+        let (m, n) = (equations.m, equations.n());
+        let local = &mut self.local;
+        local.z[0].copy_from_slice(guess);
+        local.low.fill(0.0);
+        local.is_extended = extended;
+        // None may be made.
+        local.first_correction = f64::INFINITY;
+        let refined = if extended {
+            local.refine_at_target(equations, inverter)
+        } else {
+            local.refine_at(equations, inverter, self.t)
+        };
+        if refined.is_none() {
+            let first = local.first_correction;
+            return Err(if first.is_finite() {
+                Doubt::Newton(first)
+            } else {
+                Doubt::Singular(local.pivot_ratio(equations))
+            });
+        }
+
+        let (q0, kappa) = self.contraction(equations);
+        if !(q0 < 0.5 && kappa.is_finite()) {
+            return Err(Doubt::Contraction(q0));
+        }
+        let alone_within = (0.9 * (0.9 - q0) / kappa).min(1e30);
+
+        self.bound_residual(equations, extended);
+        let local = &self.local;
+        self.f[m] = 0.0;
+        local.y.multiply_abs(&self.f[..m], &mut self.v);
+        let step = round_up(greatest(&self.v[..n]), n + 2);
+        let q = round_up(q0 + kappa * alone_within, 4);
+        let all = round_up(step / (1.0 - q), 60);
+        // The box itself, as it is printed, has to lie where its solution is alone.
+        let printed = (0..m).fold(all, |max, i| {
+            max.max(all + outward(local.z[0][i], local.low[i], all))
+        });
+        if !(q < 1.0 && printed < 0.99 * alone_within) {
+            return Err(Doubt::Wide {
+                radius: printed,
+                alone: alone_within,
+            });
+        }
+        // |x* − x| ≤ |Y F(x)| + |M| |x* − x|, entry by entry, with |M| at the distance just proved.
+        let near = round_up((q0 + kappa * all) * all, 6);
+        let found = &mut self.found;
+        found.radius.fill(0.0);
+        for (r, v) in found.radius[..m].iter_mut().zip(self.v.iter()) {
+            *r = round_up(v + near, n + 8);
+        }
+        found.centre.copy_from_slice(&local.z[0]);
+        found.low.copy_from_slice(&local.low);
+        (found.alone_within, found.rising) = (alone_within, rising);
+        Ok(found)
+    }
+
+    /// q₀ and κ at the point of `local`.
+    fn contraction(&mut self, equations: &Equations) -> (f64, f64) {
+        let (m, n) = (equations.m, equations.n());
+        let local = &self.local;
+        // q₀: I − Y [J; e_t], and the rounding of its computation and of J's entries.
+        let per_entry = gamma(equations.roundings().of_entry_at_point());
+        let is_free = |end: usize| (end < n) as usize as f64;
+        let (rounding, width) = (&mut self.rounding, &mut self.width);
+        for e in 0..m {
+            let slope = local.lengths.terms[1][e].abs();
+            let (mut size, mut change) = (slope, 0.0);
+            for axis in 0..equations.dimension() {
+                let free = equations.ends[axis][e].each(|end| is_free(end as usize));
+                let free = free[0] + free[1];
+                size += local.d[0][axis][e].abs() * free;
+                // |w_i − w_j| times the row sum of the entry's two columns.
+                change += free * free;
+            }
+            for (half, forms) in equations.tail.products(e) {
+                // The same for a product of two factors.
+                let free = forms.each(|form| equations.tail.ends(form).each(is_free));
+                let [left, right] = free.each(|ends| ends[0] + ends[1]);
+                let value = |form: usize| local.d[0].forms[form].abs();
+                size += half.abs() * (value(forms[0]) * right + value(forms[1]) * left);
+                change += 2.0 * half.abs() * left * right;
+            }
+            rounding[e] = per_entry * size;
+            width[e] = change;
+        }
+        rounding[m] = per_entry;
+        // The entries of t multiply zero in the cross-section t = 1, whatever they are.
+        equations.bordered_values(
+            &local.d[0],
+            &local.lengths,
+            &local.normal,
+            &mut self.jacobian,
+        );
+        let pattern = equations.bordered_pattern();
+        local
+            .y
+            .identity_minus_sparse_abs(pattern, &self.jacobian, &self.ones, &mut self.v);
+        let defect = greatest(&self.v[..n]);
+        local.y.multiply_abs(&rounding[..n], &mut self.v);
+        // The ones of I pass through as many sums as the products that they are added to.
+        let q0 = round_up(
+            defect + greatest(&self.v[..n]) + gamma(m + 4),
+            equations.roundings().of_contraction_at_point(),
+        );
+        local.y.multiply_abs(&width[..m], &mut self.v);
+        let kappa = round_up(
+            greatest(&self.v[..n]),
+            equations.roundings().of_width_at_point(),
+        );
+        (q0, kappa)
+    }
+
+    /// |F| at the point of `local`, with all that is not known of it, into `f`.
+    fn bound_residual(&mut self, equations: &Equations, extended: bool) {
+        let (m, local) = (equations.m, &self.local);
+        // The residual in intervals or in extended precision: its width is what limits the box.
+        if extended {
+            let (z, error) = ((&local.z[0][..], &local.low[..]), &mut self.v);
+            let precise = equations.in_extended();
+            precise.residual_at_target(equations, z, &mut self.f, Some(error));
+            for e in 0..m {
+                self.f[e] = round_up(self.f[e].abs() + error[e], 1);
+            }
+        } else {
+            for e in 0..m {
+                let ends = equations.ends.iter();
+                let squared = ends.fold(point(0.0), |sum, ends| {
+                    let [i, j] = ends[e].each(|end| point(local.z[0][end as usize]));
+                    sum + (i - j).sqr()
+                });
+                let form = |form: usize| match form {
+                    Tail::ONE => point(1.0),
+                    _ => {
+                        let ends = equations.tail.ends(form);
+                        let [i, j] = ends.each(|end| point(local.z[0][end]));
+                        i - j
+                    }
+                };
+                let products = equations.tail.products(e);
+                let sum = products.fold(squared * point(0.5), |sum, (half, [left, right])| {
+                    sum + point(half) * form(left) * form(right)
+                });
+                self.f[e] = (sum - self.targets[e]).mag();
+            }
+        }
+    }
+}
+
+impl SolutionBox {
+    /// The greatest distance of an entry of the middle from that of another box.
+    pub fn distance(&self, other: &SolutionBox) -> f64 {
+        let entry = |i: usize| {
+            let (high, low) = (self.centre[i] - other.centre[i], self.low[i] - other.low[i]);
+            (high + low).abs()
+        };
+        (0..self.centre.len()).map(entry).fold(0.0, f64::max)
+    }
+
+    /// The greatest radius of an entry.
+    pub fn greatest_radius(&self) -> f64 {
+        self.radius.iter().fold(0.0, |a: f64, &b| a.max(b))
+    }
+
+    /// How far an entry reaches from the middle where the box is printed.
+    fn reach(&self, i: usize) -> f64 {
+        self.radius[i] + outward(self.centre[i], self.low[i], self.radius[i])
+    }
+
+    /// Whether the other box holds the same solution, after changing the sign of this one's
+    /// entries where `mirror` says so.
+    pub fn is_same(&self, other: &SolutionBox, mirror: impl Fn(usize) -> bool) -> Same {
+        let m = self.centre.len() - 2;
+        let (mut inside, mut apart) = (true, false);
+        for i in 0..m {
+            let sign = if mirror(i) { -1.0 } else { 1.0 };
+            let high = sign * self.centre[i] - other.centre[i];
+            let low = sign * self.low[i] - other.low[i];
+            let distance = (high + low).abs();
+            // Each difference is rounded relatively to itself, then their sum: a factor covers them.
+            let slack = 4.0 * f64::EPSILON * (high.abs() + low.abs() + distance);
+            let radii = self.reach(i) + other.reach(i) + slack;
+            apart |= distance > round_up(radii, 8);
+            inside &= round_up(distance + self.radius[i] + slack, 4) < other.alone_within;
+            if apart && !inside {
+                break;
+            }
+        }
+        match (inside, apart) {
+            // One solution within `alone_within` of the other's middle, so both are that one.
+            (true, _) => Same::Yes,
+            (false, true) => Same::No,
+            (false, false) => Same::Unknown,
+        }
+    }
+
+    /// Whether none of the first unknowns, with some signs changed, is known to differ.
+    pub fn may_be(
+        &self,
+        other: &SolutionBox,
+        mirror: impl Fn(usize) -> bool,
+        first: usize,
+    ) -> bool {
+        !(0..first).any(|i| self.differs(other, i, mirror(i)))
+    }
+
+    /// Whether an unknown, with its sign changed here if `mirror`, is known to differ.
+    pub fn differs(&self, other: &SolutionBox, i: usize, mirror: bool) -> bool {
+        let sign = if mirror { -1.0 } else { 1.0 };
+        let distance = (sign * self.centre[i] - other.centre[i]).abs();
+        let low = self.low[i].abs() + other.low[i].abs();
+        // As in [`SolutionBox::is_same`].
+        let slack = 4.0 * f64::EPSILON * (distance + low);
+        distance > round_up(self.reach(i) + other.reach(i) + low + slack, 8)
+    }
+
+    /// How far the exact solution may be from the upper words of the middle alone.
+    pub fn radius_of_centre(&self) -> Vector {
+        let mut radius = self.radius.clone();
+        for (radius, low) in radius.iter_mut().zip(self.low.iter()) {
+            if *low != 0.0 {
+                *radius = round_up(*radius + low.abs(), 1);
+            }
+        }
+        radius
+    }
+
+    /// The coordinates of all points in the problem's units.
+    pub fn points(&self, homotopy: &Homotopy) -> Vec<[Interval; 3]> {
+        let coordinate = |i: usize| {
+            let x = self.entry(i);
+            // Scaling by a power of two is exact.
+            hull(x.inf() * homotopy.unit, x.sup() * homotopy.unit)
+        };
+        let points = 0..homotopy.points;
+        points.map(|p| homotopy.place(p, coordinate)).collect()
+    }
+
+    /// An unknown, in the homotopy's unit.
+    fn entry(&self, i: usize) -> Interval {
+        let (x, low, r) = (self.centre[i], self.low[i], self.radius[i]);
+        if low == 0.0 && r == 0.0 {
+            return point(x);
+        }
+        let lo = (x + (low - r).next_down()).next_down();
+        let hi = (x + (low + r).next_up()).next_up();
+        hull(lo, hi)
+    }
+
+    /// The unknowns beside the points' coordinates, in the homotopy's unit.
+    pub fn auxiliary(&self, homotopy: &Homotopy) -> Vec<Interval> {
+        let unknowns = homotopy.auxiliary_unknowns();
+        unknowns.map(|i| self.entry(i)).collect()
+    }
+
+    /// Where the problem's objects are, given all points in the problem's units.
+    pub fn objects(&self, homotopy: &Homotopy, points: &[[Interval; 3]]) -> Vec<Located> {
+        homotopy.locate(points, |i| self.entry(i))
+    }
+}
+
+/// The greatest of some sizes; NaN if one of them is.
+fn greatest(v: &[f64]) -> f64 {
+    v.iter().fold(0.0, |max, &x| largest(max, x))
+}
+
+/// More than [`SolutionBox::points`] adds to an entry by rounding outwards: twice two roundings of
+/// numbers no larger than this, ε each.
+fn outward(x: f64, low: f64, radius: f64) -> f64 {
+    5.0 * f64::EPSILON * (x.abs() + low.abs() + radius) + f64::MIN_POSITIVE
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::problem::Problem;
+
+    #[test]
+    fn boxes_that_are_apart_are_printed_apart() {
+        let path = format!(
+            "{}/../../problems/octahedron.toml",
+            env!("CARGO_MANIFEST_DIR")
+        );
+        let homotopy = Homotopy::new(&Problem::read(path).unwrap()).unwrap();
+        let equations = Equations::new(&homotopy);
+        let mut one = SolutionProver::new(&homotopy, &equations).found;
+        let m = equations.m;
+        one.centre[..m].fill(1.0);
+        one.radius[..m].fill(1e-28);
+        one.alone_within = 1e-20;
+        let (mut apart, mut overlapping) = (0, 0);
+        for off in 0..60 {
+            for (low, r) in [
+                (1e-17, 1e-28),
+                (0.0, 1e-28),
+                (0.0, 0.4 * f64::EPSILON),
+                (0.0, 1.9 * f64::EPSILON),
+                (-1e-17, 9.9 * f64::EPSILON),
+            ] {
+                let mut other = one.clone();
+                one.radius[..m].fill(r);
+                other.radius[..m].fill(r);
+                other.centre[0] += off as f64 * f64::EPSILON;
+                other.low[0] = low;
+                let (p, q) = (one.points(&homotopy), other.points(&homotopy));
+                let mut pairs = p.iter().flatten().zip(q.iter().flatten());
+                let disjoint = pairs.any(|(p, q)| p.sup() < q.inf() || q.sup() < p.inf());
+                let same = one.is_same(&other, |_| false);
+                assert!(
+                    disjoint || same != Same::No,
+                    "off {off} low {low:e} r {r:e}"
+                );
+                apart += (same == Same::No) as usize;
+                overlapping += !disjoint as usize;
+            }
+        }
+        assert!(apart > 100 && overlapping > 20, "{apart} {overlapping}");
+    }
+}

@@ -1,0 +1,464 @@
+//! The proofs, checked against computations that share nothing with them: interval matrices filled
+//! straight from the homotopy, exact rationals, figures whose whole path is known, and sabotage.
+//!
+//! A test here that fails shows a claim that is false, or one that is made without a proof.
+
+mod along;
+mod components;
+mod crossings;
+mod disguise;
+mod extended;
+mod faults;
+mod known_paths;
+#[path = "../../../../../../tests/common/mixed/mod.rs"]
+#[allow(dead_code, unused_imports)]
+mod mixed;
+mod mutations;
+mod precise;
+mod reduced;
+mod reruns;
+mod sabotage;
+mod solutions;
+mod tubes;
+
+pub use faults::inject as inject_fault;
+
+use crate::equations::Form;
+use crate::places::Each as _;
+use along::{at_sketch, check_entry, link_is_true, middle, sketch, slope};
+
+use super::link::Tube;
+use crate::interval::rounding::{gamma, round_up};
+use crate::interval::{Interval, hull, point};
+use crate::linalg::{Matrix, Vector};
+use crate::problem::{Decimal, Problem};
+use crate::system::Homotopy;
+use crate::track::full::certified::KrawczykTest;
+use crate::track::full::{Equations, InverseMaker, Local, ORDER, Preconditioner, first_normal};
+use crate::track::{Control, Options, Space, Status, solve};
+use nalgebra::DMatrix;
+
+/// How far ẑ(s)_i, as [`Local::entry_at`] evaluates it in floats, may be from the exact value.
+fn evaluation_error<const N: usize, Y: Preconditioner>(
+    local: &Local<N, Y>,
+    i: usize,
+    s: f64,
+) -> f64 {
+    let s = s.abs();
+    let size = (0..N)
+        .rev()
+        .fold(0.0, |sum, k| sum * s + local.z[k][i].abs());
+    round_up(gamma(4 * N) * size, 4 * N)
+}
+
+/// SplitMix64 (Steele, Lea, Flood 2014): the same numbers in every run.
+pub struct Random(u64);
+
+impl Random {
+    pub fn new(seed: u64) -> Self {
+        Random(seed + 1000 * from_environment("KRAWL_SEED").unwrap_or(0))
+    }
+
+    pub fn bits(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    /// Uniform in [0, 1).
+    pub fn unit(&mut self) -> f64 {
+        (self.bits() >> 11) as f64 * (0.5f64).powi(53)
+    }
+
+    pub fn between(&mut self, lo: f64, hi: f64) -> f64 {
+        lo + (hi - lo) * self.unit()
+    }
+
+    pub fn below(&mut self, n: usize) -> usize {
+        (self.bits() % n as u64) as usize
+    }
+
+    pub fn sign(&mut self) -> f64 {
+        if self.bits() & 1 == 0 { 1.0 } else { -1.0 }
+    }
+}
+
+/// How many times the usual number of cases to run, and a seed to add, from the environment
+/// (KRAWL_EFFORT, KRAWL_SEED): for long searches.
+pub fn effort(rounds: usize) -> usize {
+    rounds * from_environment("KRAWL_EFFORT").unwrap_or(1) as usize
+}
+
+fn from_environment(name: &str) -> Option<u64> {
+    std::env::var(name).ok()?.parse().ok()
+}
+
+/// The problems that come with krawl.
+pub fn shipped() -> Vec<Problem> {
+    let read = |name: &str| {
+        Problem::read(format!(
+            "{}/../../problems/{name}.toml",
+            env!("CARGO_MANIFEST_DIR")
+        ))
+        .expect("a readable problem")
+    };
+    ["disulfide", "dodecagon", "icosahedron-c1", "octahedron"]
+        .map(read)
+        .into()
+}
+
+/// A decimal times a power of ten, exactly. `None`: out of range.
+pub fn times_ten_to(x: &Decimal, exponent: i32) -> Option<Decimal> {
+    let text = x.text();
+    let (mantissa, old) = text.split_once(['e', 'E']).unwrap_or((text, "0"));
+    format!("{mantissa}e{}", old.parse::<i32>().ok()? + exponent)
+        .parse()
+        .ok()
+}
+
+/// A number with few digits, so that its decimal is what people would write.
+pub fn rounded(x: f64, digits: i32) -> f64 {
+    let power = 10f64.powi(digits);
+    (x * power).round() / power
+}
+
+/// The edges of a graph that is rigid for generic lengths, made by Henneberg's steps: a point
+/// joined to as many others as there are axes, or put on an edge and joined to one less.
+pub fn random_edges(random: &mut Random, dimension: usize, points: usize) -> Vec<[usize; 2]> {
+    let mut edges: Vec<[usize; 2]> = (0..dimension)
+        .flat_map(|b| (0..b).map(move |a| [a, b]))
+        .collect();
+    for p in dimension..points {
+        let mut ends = Vec::new();
+        if random.below(2) == 0 && edges.len() > 1 && p > dimension {
+            let [a, b] = edges.swap_remove(random.below(edges.len()));
+            ends.extend([a, b]);
+        }
+        let wanted = if ends.is_empty() {
+            dimension
+        } else {
+            dimension + 1
+        };
+        while ends.len() < wanted {
+            let q = random.below(p);
+            if !ends.contains(&q) {
+                ends.push(q);
+            }
+        }
+        edges.extend(ends.into_iter().map(|q| [q, p]));
+    }
+    edges.sort_unstable();
+    edges
+}
+
+/// A problem on such a graph, its targets away from the sketch by a factor up to 1 ± `change`.
+pub fn random_problem(
+    random: &mut Random,
+    dimension: usize,
+    points: usize,
+    change: f64,
+) -> Problem {
+    loop {
+        let edges = random_edges(random, dimension, points);
+        let places: Vec<Vec<f64>> = (0..points)
+            .map(|_| {
+                (0..dimension)
+                    .map(|_| rounded(random.between(-1.0, 1.0), 2))
+                    .collect()
+            })
+            .collect();
+        let name = |p: usize| format!("p{p}");
+        let mut builder = Problem::build("random", dimension);
+        for (p, place) in places.iter().enumerate() {
+            builder = builder.point(&name(p), place.iter().copied());
+        }
+        for &[a, b] in &edges {
+            let length = (0..dimension)
+                .map(|k| (places[a][k] - places[b][k]).powi(2))
+                .sum::<f64>()
+                .sqrt();
+            let target = rounded(length * (1.0 + random.between(-change, change)), 3).max(0.001);
+            builder = builder.distance(&name(a), &name(b), target);
+        }
+        if let Ok(problem) = builder
+            .bend_coefficient([2.0, 0.3, 0.05, -0.1][random.below(4)])
+            .finish()
+        {
+            return problem;
+        }
+    }
+}
+
+/// A problem in which constraints of all kinds stand in place of some distances.
+pub fn mixed_problem(random: &mut Random, dimension: usize) -> Problem {
+    loop {
+        if let Some((_, problem)) = mixed::Spec::random(dimension, &mut |n| random.below(n)) {
+            return problem;
+        }
+    }
+}
+
+/// Whether a short run round the path closes.
+pub fn closes(problem: &Problem, space: Space) -> bool {
+    let options = Options {
+        space,
+        max_steps: 600,
+        ..Options::certified()
+    };
+    let outcome = solve(problem, &options, &mut Control::default());
+    outcome.is_ok_and(|outcome| outcome.status == Status::Closed)
+}
+
+/// The homotopy in intervals, read off its own data rather than the trackers' arrays.
+pub struct Exact<'a> {
+    pub homotopy: &'a Homotopy,
+    pub m: usize,
+    pub n: usize,
+}
+
+pub type Rows = Vec<Vec<Interval>>;
+
+impl<'a> Exact<'a> {
+    pub fn new(homotopy: &'a Homotopy) -> Self {
+        Exact {
+            homotopy,
+            m: homotopy.equations,
+            n: homotopy.equations + 1,
+        }
+    }
+
+    /// A factor of a term: a difference of unknowns, or 1.
+    fn factor(&self, z: &[Interval], form: Form<Option<usize>>) -> Interval {
+        form.value(|entry| entry.map_or(point(0.0), |i| z[i]))
+    }
+
+    pub fn residual(&self, z: &[Interval]) -> Vec<Interval> {
+        (0..self.m)
+            .map(|e| {
+                let twice = self.homotopy.terms(e).iter().fold(point(0.0), |sum, term| {
+                    let (x, y) = (self.factor(z, term.left), self.factor(z, term.right));
+                    let product = if term.left == term.right {
+                        x.sqr()
+                    } else {
+                        x * y
+                    };
+                    sum + point(term.factor.into()) * product
+                });
+                twice * point(0.5) - self.homotopy.rights[e].enclose(z[self.m])
+            })
+            .collect()
+    }
+
+    /// J(z) with the row c below.
+    pub fn bordered(&self, z: &[Interval], c: &[f64]) -> Rows {
+        let t = z[self.m];
+        let mut rows: Rows = (0..self.m)
+            .map(|e| {
+                let mut row = self.homotopy.slopes(e, |i| z[i]);
+                let e = self.homotopy.rights[e].enclosures();
+                let [two, three, four] = [2.0, 3.0, 4.0].each(point);
+                row.push(-(e[1] + t * (two * e[2] + t * (three * e[3] + t * four * e[4]))));
+                row
+            })
+            .collect();
+        rows.push(c[..self.n].iter().map(|&c| point(c)).collect());
+        rows
+    }
+
+    /// Encloses the zero of F in the cross-section c·(z − through) = 0 that Newton's method finds
+    /// from `start`; with it an enclosure of the solution x of [J; c] x = (0, …, 0, 1).
+    ///
+    /// Krawczyk's test with another preconditioner than the trackers', the inverse at the point
+    /// itself, in intervals. `None`: it fails.
+    pub fn point_near(
+        &self,
+        start: &[f64],
+        c: &[f64],
+        through: &[Interval],
+    ) -> Option<(Vec<Interval>, Vec<Interval>)> {
+        let n = self.n;
+        let mut z = start[..n].to_vec();
+        let at = |z: &[f64]| z.iter().map(|&x| point(x)).collect::<Vec<_>>();
+        let defect = |z: &[Interval]| {
+            let mut g = self.residual(z);
+            let along = (0..n).fold(point(0.0), |sum, i| sum + point(c[i]) * (z[i] - through[i]));
+            g.push(along);
+            g
+        };
+        let mut inverse = DMatrix::zeros(n, n);
+        for _ in 0..8 {
+            let rows = self.bordered(&at(&z), c);
+            inverse = DMatrix::from_fn(n, n, |i, j| rows[i][j].mid()).try_inverse()?;
+            let g = defect(&at(&z));
+            for i in 0..n {
+                z[i] -= (0..n).map(|j| inverse[(i, j)] * g[j].mid()).sum::<f64>();
+            }
+        }
+        let times = |v: &[Interval]| -> Vec<Interval> {
+            (0..n)
+                .map(|i| (0..n).fold(point(0.0), |sum, j| sum + point(inverse[(i, j)]) * v[j]))
+                .collect()
+        };
+        let centre = at(&z);
+        let step = times(&defect(&centre));
+        let size = z.iter().fold(0.0f64, |max, x| max.max(x.abs()));
+        let mut radius: Vec<f64> = step.iter().map(|x| 2.0 * x.mag() + 1e-16 * size).collect();
+        for _ in 0..6 {
+            let around: Vec<Interval> = (0..n)
+                .map(|i| hull(z[i] - radius[i], z[i] + radius[i]))
+                .collect();
+            let contraction = self.identity_minus(&inverse, &self.bordered(&around, c));
+            let image: Vec<Interval> = (0..n)
+                .map(|i| {
+                    let rest = (0..n).fold(point(0.0), |sum, j| {
+                        sum + contraction[i][j] * (around[j] - centre[j])
+                    });
+                    centre[i] - step[i] + rest
+                })
+                .collect();
+            if (0..n).all(|i| image[i].interior(around[i])) {
+                // x = C e_n + (I − C [J; c]) x, and |I − C [J; c]| < 1 in the largest row sum.
+                let norm = contraction
+                    .iter()
+                    .map(|row| row.iter().fold(point(0.0), |sum, x| sum + x.abs()).sup())
+                    .fold(0.0, f64::max);
+                if norm >= 0.5 {
+                    return None;
+                }
+                let x: Vec<f64> = (0..n).map(|i| inverse[(i, n - 1)]).collect();
+                let largest = x.iter().fold(0.0f64, |max, x| max.max(x.abs()));
+                let error = (point(norm) * point(largest) / (point(1.0) - point(norm))).sup();
+                return Some((
+                    image,
+                    x.iter().map(|&x| hull(x - error, x + error)).collect(),
+                ));
+            }
+            radius.iter_mut().for_each(|r| *r *= 3.0);
+        }
+        None
+    }
+
+    fn identity_minus(&self, inverse: &DMatrix<f64>, rows: &Rows) -> Rows {
+        let n = self.n;
+        (0..n)
+            .map(|i| {
+                (0..n)
+                    .map(|j| {
+                        let one = point(if i == j { 1.0 } else { 0.0 });
+                        (0..n).fold(one, |sum, k| sum - point(inverse[(i, k)]) * rows[k][j])
+                    })
+                    .collect()
+            })
+            .collect()
+    }
+}
+
+/// A proved tube, and its A.
+#[derive(Clone)]
+pub struct Sample {
+    pub tube: Tube,
+    pub a: Matrix,
+}
+
+impl Sample {
+    /// A lower bound of |v|_u.
+    pub fn norm(&self, v: &[Interval]) -> f64 {
+        v.iter()
+            .zip(self.tube.weights.iter())
+            .map(|(v, &u)| (v.abs() / point(u)).inf())
+            .fold(0.0, f64::max)
+    }
+
+    pub fn normal(&self) -> &[f64] {
+        &self.tube.local.normal
+    }
+}
+
+/// What is needed to make tubes by hand.
+pub struct Workshop {
+    pub equations: Equations,
+    pub inverter: InverseMaker,
+    pub test: KrawczykTest,
+    pub weights: Vector,
+    pub max_h: f64,
+}
+
+impl Workshop {
+    pub fn new(homotopy: &Homotopy, max_h: f64) -> Self {
+        let equations = Equations::new(homotopy);
+        let n = equations.n();
+        let mut weights = equations.vector();
+        weights[..n].fill(1.0);
+        Workshop {
+            inverter: equations.inverter(),
+            test: KrawczykTest::new(&equations, 1),
+            weights,
+            equations,
+            max_h,
+        }
+    }
+
+    /// A proved tube at the point and with the normal given, after a number of rounds for the weights.
+    pub fn tube(&mut self, z: &[f64], normal: &[f64], rounds: usize) -> Option<Sample> {
+        let n = self.equations.n();
+        let mut tube = Tube::new(&self.equations);
+        tube.local.z[0][..n].copy_from_slice(&z[..n]);
+        tube.local.normal[..n].copy_from_slice(&normal[..n]);
+        let (equations, inverter) = (&self.equations, &mut self.inverter);
+        match self.test.precision.extended {
+            true => tube.local.refine_extended(equations, inverter),
+            false => tube.local.refine(equations, inverter, 1e-9, 8),
+        }
+        .ok()?;
+        tube.local.expand(&self.equations);
+        let mut proof = None;
+        for _ in 0..rounds {
+            proof = self
+                .test
+                .prove(&self.equations, &tube.local, &mut self.weights, self.max_h);
+        }
+        tube.proof = proof?;
+        tube.weights.copy_from_slice(self.test.weights());
+        tube.exit_at = 0.97 * tube.proof.h;
+        self.test.enclose_exit(&self.equations, &mut tube)?;
+        Some(Sample {
+            tube,
+            a: self.test.moving_matrix().clone(),
+        })
+    }
+
+    /// Linked tubes from the sketch on, at most `count`.
+    pub fn chain(&mut self, homotopy: &Homotopy, count: usize) -> Vec<Sample> {
+        let first = at_sketch(homotopy, &self.equations, &mut self.inverter)
+            .and_then(|local| self.tube(&local.z[0], &local.normal, 4));
+        let Some(first) = first else {
+            return Vec::new();
+        };
+        let mut chain = vec![first];
+        let (mut z, mut normal) = (self.equations.vector(), self.equations.vector());
+        let mut trust = 1.0;
+        while chain.len() < count && trust > 1e-6 {
+            let last = &chain[chain.len() - 1].tube;
+            let advance = last.exit_at + 0.9 * trust * last.proof.h;
+            last.local.predict(advance, None, &mut z, &mut normal);
+            let kept = self.weights.clone();
+            let next = self.tube(&z, &normal, 1).and_then(|mut next| {
+                next.tube.entry = last.leads_to(&next.tube)?;
+                Some(next)
+            });
+            match next {
+                Some(next) => {
+                    chain.push(next);
+                    trust = (1.5f64 * trust).min(1.0);
+                }
+                None => {
+                    self.weights = kept;
+                    trust *= 0.6;
+                }
+            }
+        }
+        chain
+    }
+}
