@@ -4,7 +4,7 @@ use super::input;
 use super::output::{self, Beside};
 use crate::places::Each as _;
 use krawl::import::Format;
-use krawl::problem::Problem;
+use krawl::problem::{Problem, Shape};
 use krawl::system::{Located, Placement};
 use krawl::track::Solution;
 use std::io::Write;
@@ -91,7 +91,31 @@ impl Taken {
             let sketch = point.sketch.each_ref().each(|x| x.to_f64());
             std::array::from_fn::<f64, 3, _>(|k| (at[k] - sketch[k]).powi(2))
         });
-        squares.sum()
+        let objects = self.objects.iter().zip(&problem.objects);
+        let bodies = objects.filter_map(|(at, object)| match (at, &object.shape) {
+            (
+                Located::Pose { at, axes },
+                Shape::Body {
+                    place: Some(place), ..
+                },
+            ) => {
+                let Located::Pose {
+                    at: drawn,
+                    axes: turned,
+                } = Located::posed(place)
+                else {
+                    return None;
+                };
+                let numbers = at.iter().chain(axes.iter().flatten());
+                let others = drawn.iter().chain(turned.iter().flatten());
+                let off = numbers
+                    .zip(others)
+                    .map(|(x, y)| (x.mid() - y.mid()).powi(2));
+                Some(off.sum::<f64>())
+            }
+            _ => None,
+        });
+        squares.sum::<f64>() + bodies.sum::<f64>()
     }
 }
 

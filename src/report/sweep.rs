@@ -3,7 +3,8 @@
 use super::certain_digits;
 use super::drawing::{Drawing, names};
 use super::edit::{
-    bounds, edit_in_words, edit_to_value, limit_in_words, points_to_value, short, write_moved,
+    bounds, edit_in_words, edit_to_value, joints_to_value, limit_in_words, points_to_value, short,
+    write_moved,
 };
 use super::measured::Measures;
 use crate::edit::{Edited, End, Ending, Moved, Range, Sweep};
@@ -178,7 +179,12 @@ pub fn sweep_in_words(problem: &Problem, index: usize, sweep: &Sweep) -> String 
 /// A sweep as a value in memory, as `krawl sweep --json` writes it (docs/edit.md).
 pub fn sweep_to_value(problem: &Problem, index: usize, sweep: &Sweep) -> Value {
     let frames = sweep.frames.iter().map(|frame| {
-        json!({"value": bounds(frame.value), "points": points_to_value(problem, &frame.points)})
+        let mut value =
+            json!({"value": bounds(frame.value), "points": points_to_value(problem, &frame.points)});
+        if let Some(joints) = joints_to_value(problem, &frame.objects, bounds) {
+            value["joints"] = joints;
+        }
+        value
     });
     let end = obstacle(sweep);
     Drawing::in_place("sweep", problem).with(json!({

@@ -590,3 +590,57 @@ fn joints_are_written_and_do_not_depend_on_where_the_ground_is() {
         assert!(apart(&one[..3], &other[..3]) < 1e-9 && (one[3] - other[3]).abs() < 1e-9);
     }
 }
+
+/// What two ways say of one axis or one body is said twice: nothing is taken to agree that does not.
+#[test]
+fn axes_and_directions_at_odds_have_no_figure() {
+    let arm = "[robots]\ns = [{ a = 0.5, d = 0.3 }, { a = 0.4 }, { prismatic = true, d = 0.1 }]\n";
+    let tilted = format!(
+        "dimension = 3\n{arm}[places]\ns_3 = {{ at = [0.6, 0.3, 0.4], z = [0, 0.6, 0.8], x = [1, 0, 0] }}\n[constraints]\nfixed = [\"s_0\", \"s_3\"]\n"
+    );
+    let bar = |z: &str| {
+        format!(
+            "dimension = 3\n[bodies]\ng = {{}}\na = {{}}\nb = {{}}\nc = {{}}\n[joints]\n\
+             O = {{ revolute = [\"g\", \"a\"], sketch = 40 }}\n\
+             A = {{ revolute = [\"a\", \"b\"], at = [[1, 0, 0], [0, 0, 0]], sketch = -40 }}\n\
+             B = {{ revolute = [\"b\", \"c\"], at = [[2, 0, 0], [0, 0, 0]], z = [[0, 0, 1], [0, 0, {z}]], sketch = 60 }}\n\
+             C = {{ revolute = [\"c\", \"g\"], at = [[1.5, 0, 0], [2.5, 0, 0]] }}\n[constraints]\nturns = [[\"O\", 50]]\n"
+        )
+    };
+    let twisted = "dimension = 3\n[bodies]\na = {}\nb = {}\n[joints]\n\
+        J = { rigid = [\"a\", \"b\"], x = [[1, 0, 0], [0, 1, 0]] }\nK = { prismatic = [\"a\", \"b\"] }\n";
+    let flipped = "dimension = 3\n[bodies]\na = {}\nb = {}\n[joints]\n\
+        J = { rigid = [\"a\", \"b\"] }\nK = { revolute = [\"a\", \"b\"], z = [[0, 0, 1], [0, 0, -1]] }\n";
+    let found = |text: &str| {
+        let problem = Problem::parse_loosely(text, "odds.toml").unwrap();
+        all(&problem, &Options::default()).unwrap()
+    };
+    for text in [&tilted, &bar("-1"), twisted, flipped] {
+        let none = found(text);
+        assert_eq!(
+            (none.status, none.solutions.len()),
+            (Status::Complete, 0),
+            "{text}"
+        );
+    }
+    // The same with one sense all round has its two figures.
+    assert_eq!(found(&bar("1")).solutions.len(), 2);
+}
+
+/// Slides along directions whose lengths are roots: both frames of a joint have one direction, and none is needed twice.
+#[test]
+fn slides_go_along_any_direction() {
+    for z in ["[1, 1, 0]", "[1, 1, 1]", "[0.3, -0.5, 2]"] {
+        let text = format!(
+            "dimension = 3\n[bodies]\na = {{}}\nb = {{}}\n[joints]\nS = {{ prismatic = [\"a\", \"b\"], z = [{z}, {z}] }}\n[constraints]\ntravels = [[\"S\", 2]]\n"
+        );
+        let problem = read(&text);
+        let found = all(&problem, &Options::default()).unwrap();
+        assert_eq!((found.status, found.solutions.len()), (Status::Complete, 1));
+        let Located::Pose { at, .. } = &found.solutions[0].objects[1] else {
+            panic!("a body with joints")
+        };
+        let size = at.iter().map(|x| x.mid() * x.mid()).sum::<f64>().sqrt();
+        assert!((size - 2.0).abs() < 1e-12);
+    }
+}

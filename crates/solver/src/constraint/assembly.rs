@@ -9,7 +9,9 @@ use super::lowering::Fault;
 use crate::decimal::Decimal;
 use crate::interval::Real;
 use crate::statement::{JointSort, Pose, Problem, Shape};
+use num_traits::Signed;
 use std::array::from_fn;
+use std::collections::HashSet;
 
 /// A vector of exact numbers.
 pub type Exact = [Real; 3];
@@ -42,6 +44,40 @@ pub fn times(factor: &Real, a: &Exact) -> Exact {
 /// a + b.
 pub fn plus(a: &Exact, b: &Exact) -> Exact {
     from_fn(|k| &a[k] + &b[k])
+}
+
+/// a − b, where both are written alike zero.
+fn minus(a: &Exact, b: &Exact) -> Exact {
+    from_fn(|k| match a[k] == b[k] {
+        true => Real::zero(),
+        false => &a[k] - &b[k],
+    })
+}
+
+/// Whether two vectors are known to have one direction.
+fn is_same_direction(a: &Exact, b: &Exact) -> bool {
+    let is_parallel = is_zero(&cross(a, b)) || is_zero(&minus(a, b));
+    is_parallel && dot(a, b).enclose().inf() > 0.0
+}
+
+/// Whether two vectors are not known not to be parallel. (Enclosures of exact numbers have some 70 digits.)
+fn may_be_parallel(a: &Exact, b: &Exact) -> bool {
+    let mut across = cross(a, b).into_iter();
+    across.all(|x| {
+        let ball = x.ball();
+        ball.middle.abs() <= ball.radius
+    })
+}
+
+/// The axes of the body at the other side of a joint that keeps directions, in the coordinates in which the body at this side has these.
+fn carried(turned: &Turned, frames: &[Pose; 2], side: usize) -> Turned {
+    let [here, there] = [side, 1 - side].map(|side| axes(&frames[side]).expect("checked before"));
+    // The joint's axes, which both bodies have.
+    let frame = here.each_ref().map(|axis| out_of(turned, axis));
+    from_fn(|k| {
+        let along: Exact = from_fn(|i| there[i][k].clone());
+        out_of(&frame, &along)
+    })
 }
 
 /// Whether all are known to be zero.
@@ -95,9 +131,11 @@ pub struct Group {
     pub body: usize,
     /// Its axes in the user's frame, where they stand.
     pub stands: Option<Turned>,
-    /// The axes of joints in it that are not parallel to each other, by number, and their directions in its coordinates. Where it does not
-    /// stand it is told by the first two of them.
+    /// The axes of joints in it that are not known to be parallel to each other, by number, and their directions in its coordinates. Where it does
+    /// not stand it is told by the first two of them.
     pub axes: Vec<(usize, Exact)>,
+    /// Directions that an axis has by another joint as well, which are not known to be the one above: the joint, the axis, the direction.
+    pub again: Vec<(usize, usize, Exact)>,
 }
 
 /// An axis of joints: a unit vector.
@@ -109,6 +147,9 @@ pub struct Axis {
 }
 
 /// All bodies with joints of a problem.
+///
+/// What two ways tell and is not known to be the same is told once here, and what the other way says is kept to be said, too
+/// ([`Group::again`], [`Assembly::closing`], [`Assembly::standing`]): nothing is taken to agree.
 pub struct Assembly {
     /// The bodies, in the order of the objects.
     pub members: Vec<Member>,
@@ -119,6 +160,10 @@ pub struct Assembly {
     /// Of each joint its number among the objects, and of the axis along the z axis of its frame in either body the number and whether it is along the
     /// opposite direction. Joints that need none have none.
     pub joints: Vec<(usize, [Option<(usize, bool)>; 2])>,
+    /// Vectors that are zero as a joint keeps directions between bodies that others have in one group already: the joint, the group, the coordinates.
+    pub closing: Vec<(usize, usize, Exact)>,
+    /// Vectors of the user's frame that are zero as a body stands in a group that stands already: the body, the vector.
+    pub standing: Vec<(usize, Exact)>,
 }
 
 impl Assembly {
@@ -132,18 +177,30 @@ impl Assembly {
             groups: Vec::new(),
             axes: Vec::new(),
             joints: Vec::new(),
+            closing: Vec::new(),
+            standing: Vec::new(),
         };
-        made.gather(problem)?;
-        made.stand(problem)?;
+        for (index, object) in problem.objects.iter().enumerate() {
+            let of = |pose: &Pose| axes(pose).map(|_| ()).map_err(|fault| (index, fault));
+            match &object.shape {
+                Shape::Body {
+                    place: Some(pose), ..
+                } => of(pose)?,
+                Shape::Joint { frames, .. } => frames.iter().try_for_each(of)?,
+                _ => {}
+            }
+        }
+        made.gather(problem);
+        made.stand(problem);
         if problem.dimension == 3 {
-            made.find_axes(problem)?;
+            made.find_axes(problem);
         } else {
             made.joints = joints(problem).map(|(j, ..)| (j, [None; 2])).collect();
         }
         for group in &mut made.groups {
-            let stands = |&(axis, _): &(usize, Exact)| made.axes[axis].stands.is_none();
+            let moves = |&(axis, _): &(usize, Exact)| made.axes[axis].stands.is_none();
             // What stands first: then as few as can be have to be told.
-            let (moving, standing): (Vec<_>, Vec<_>) = group.axes.drain(..).partition(stands);
+            let (moving, standing): (Vec<_>, Vec<_>) = group.axes.drain(..).partition(moves);
             group.axes = [standing, moving].concat();
         }
         Ok(made)
@@ -158,8 +215,9 @@ impl Assembly {
     }
 
     /// The groups: bodies that joints without a turn connect.
-    fn gather(&mut self, problem: &Problem) -> Result<(), (usize, Fault)> {
+    fn gather(&mut self, problem: &Problem) {
         let identity: Turned = from_fn(|i| from_fn(|k| Real::whole(i64::from(i == k))));
+        let mut used = HashSet::new();
         for (body, object) in problem.objects.iter().enumerate() {
             if !matches!(object.shape, Shape::Body { place: Some(_), .. })
                 || self.members.iter().any(|m| m.body == body)
@@ -171,30 +229,20 @@ impl Assembly {
                 body,
                 stands: None,
                 axes: Vec::new(),
+                again: Vec::new(),
             });
-            let mut next = vec![(body, identity.clone())];
-            while let Some((body, turned)) = next.pop() {
+            let mut next = vec![(body, identity.clone(), None)];
+            while let Some((body, turned, by)) = next.pop() {
                 if self.members.iter().any(|m| m.body == body) {
                     continue;
                 }
+                used.extend(by);
                 for (joint, sort, bodies, frames) in joints(problem) {
-                    let Some(side) = bodies.iter().position(|&b| b == body) else {
-                        continue;
-                    };
-                    if !sort.keeps_directions() {
-                        continue;
+                    let side = bodies.iter().position(|&b| b == body);
+                    if let (Some(side), true) = (side, sort.keeps_directions()) {
+                        let other = carried(&turned, frames, side);
+                        next.push((bodies[1 - side], other, Some(joint)));
                     }
-                    let fault = |fault| (joint, fault);
-                    // The frame's axes in the group, which are those of the frame of the other side, too.
-                    let frame = axes(&frames[side]).map_err(fault)?;
-                    let frame = frame.each_ref().map(|axis| out_of(&turned, axis));
-                    let other = axes(&frames[1 - side]).map_err(fault)?;
-                    // An axis of the other body has the same coordinates in both.
-                    let others = from_fn(|k| {
-                        let along: Exact = from_fn(|i| other[i][k].clone());
-                        out_of(&frame, &along)
-                    });
-                    next.push((bodies[1 - side], others));
                 }
                 self.members.push(Member {
                     body,
@@ -203,11 +251,21 @@ impl Assembly {
                 });
             }
         }
-        Ok(())
+        for (joint, sort, bodies, frames) in joints(problem) {
+            if !sort.keeps_directions() || used.contains(&joint) {
+                continue;
+            }
+            let (first, second) = (self.member(bodies[0]), self.member(bodies[1]));
+            let other = carried(&first.turned, frames, 0);
+            let apart = [0, 2].map(|k| minus(&other[k], &second.turned[k]));
+            let group = first.group;
+            let apart = apart.into_iter().filter(|v| !is_zero(v));
+            self.closing.extend(apart.map(|v| (joint, group, v)));
+        }
     }
 
     /// The groups that stand.
-    fn stand(&mut self, problem: &Problem) -> Result<(), (usize, Fault)> {
+    fn stand(&mut self, problem: &Problem) {
         for body in problem.standing_bodies() {
             let Shape::Body {
                 place: Some(pose), ..
@@ -215,46 +273,45 @@ impl Assembly {
             else {
                 unreachable!("a body with joints")
             };
-            let here = axes(pose).map_err(|fault| (body, fault))?;
+            let here = axes(pose).expect("checked before");
             let member = self.member(body);
-            let group = member.group;
-            let whole = from_fn(|k| {
-                let along: Exact = from_fn(|i| member.turned[i][k].clone());
-                out_of(&here, &along)
-            });
+            let (group, turned) = (member.group, member.turned.clone());
             match &self.groups[group].stands {
-                Some(stands) if *stands != whole => {
-                    let fault = "it stands, and so does another body that it always turns with: leave it out of `fixed`";
-                    return Err((body, fault.to_owned()));
+                Some(stands) => {
+                    let apart = [0, 2].map(|k| minus(&out_of(stands, &turned[k]), &here[k]));
+                    let apart = apart.into_iter().filter(|v| !is_zero(v));
+                    self.standing.extend(apart.map(|v| (body, v)));
                 }
-                _ => self.groups[group].stands = Some(whole),
+                None => {
+                    let whole = from_fn(|k| {
+                        let along: Exact = from_fn(|i| turned[i][k].clone());
+                        out_of(&here, &along)
+                    });
+                    self.groups[group].stands = Some(whole);
+                }
             }
         }
-        Ok(())
     }
 
     /// The axes of joints: one for all that are parallel in a body, and of each joint for both of its sides.
-    fn find_axes(&mut self, problem: &Problem) -> Result<(), (usize, Fault)> {
+    fn find_axes(&mut self, problem: &Problem) {
         // Of each side of a joint the group and the direction in it, as it is given.
         let mut sides: Vec<(usize, usize, Exact)> = Vec::new();
         let mut of_joints = Vec::new();
         for (joint, sort, bodies, frames) in joints(problem) {
             let mut of = [None; 2];
-            for (side, of) in of.iter_mut().enumerate() {
+            for side in 0..2 {
                 let needs = match sort {
                     JointSort::Spherical | JointSort::Rigid => false,
-                    JointSort::OnPlane => side == 0,
+                    // What keeps directions has one in the group.
+                    JointSort::OnPlane | JointSort::Prismatic => side == 0,
                     _ => true,
                 };
-                axes(&frames[side]).map_err(|fault| (joint, fault))?;
                 if needs {
                     let member = self.member(bodies[side]);
-                    *of = Some(sides.len());
-                    sides.push((
-                        joint,
-                        member.group,
-                        out_of(&member.turned, &exact(&frames[side].z)),
-                    ));
+                    of[side] = Some(sides.len());
+                    let direction = out_of(&member.turned, &exact(&frames[side].z));
+                    sides.push((joint, member.group, direction));
                 }
             }
             of_joints.push((joint, sort, of));
@@ -276,7 +333,7 @@ impl Assembly {
                 let (_, is_opposite) = axis[side].expect("just said");
                 let (_, group, direction) = &sides[side];
                 for (other, (_, of, along)) in sides.iter().enumerate() {
-                    if axis[other].is_none() && of == group && is_zero(&cross(direction, along)) {
+                    if axis[other].is_none() && of == group && may_be_parallel(direction, along) {
                         let turns = dot(direction, along).enclose().sup() < 0.0;
                         axis[other] = Some((number, is_opposite ^ turns));
                         next.push(other);
@@ -295,44 +352,62 @@ impl Assembly {
                 }
             }
         }
+        // Of a joint both sides are along one vector: what its first side says.
+        for (_, sort, of) in &of_joints {
+            if let (false, [Some(a), Some(b)]) = (*sort == JointSort::Universal, of) {
+                axis[*b] = axis[*a];
+            }
+        }
+        let mut given: Vec<Vec<(usize, Exact)>> = vec![Vec::new(); self.groups.len()];
         for ((joint, group, direction), axis) in sides.iter().zip(&axis) {
             let (number, is_opposite) = axis.expect("all have one");
             let sign = Real::whole(if is_opposite { -1 } else { 1 });
-            let group = &mut self.groups[*group];
-            let along = times(&sign, &unit(direction));
-            match group.axes.iter().find(|&&(other, _)| other == number) {
-                Some((_, other)) if !is_zero(&cross(other, direction)) => {
-                    let other = &problem.objects[self.axes[number].joint].name;
-                    return Err((
-                        *joint,
-                        format!(
-                            "by other bodies its axis is parallel to that of `{other}`, and by this one it is not"
-                        ),
-                    ));
+            let direction = times(&sign, direction);
+            let known = given[*group].iter().find(|&&(other, _)| other == number);
+            match known {
+                Some((_, known)) if is_same_direction(known, &direction) => {}
+                Some(_) => {
+                    let again = (*joint, number, unit(&direction));
+                    self.groups[*group].again.push(again);
                 }
-                Some(_) => {}
                 None => {
-                    let is_apart = |(_, other): &(usize, Exact)| {
-                        let product = dot(other, &along).enclose();
-                        product.mag() < 1.0
-                    };
-                    if !group.axes.iter().all(is_apart) {
-                        let fault = "it cannot be told whether its axis is parallel to another one of the body: give both the same numbers";
-                        return Err((*joint, fault.to_owned()));
-                    }
-                    group.axes.push((number, along.clone()));
+                    self.groups[*group].axes.push((number, unit(&direction)));
+                    given[*group].push((number, direction));
                 }
             }
-            if let Some(stands) = &group.stands {
-                self.axes[number].stands = Some(out_of(stands, &along));
+        }
+        // Axes of which groups that stand have one direction stand.
+        for number in 0..self.axes.len() {
+            let told = |group: &Group| {
+                let stands = group.stands.as_ref()?;
+                let (_, along) = group.axes.iter().find(|&&(other, _)| other == number)?;
+                Some(out_of(stands, along))
+            };
+            let all: Vec<Exact> = self.groups.iter().filter_map(told).collect();
+            let Some(first) = all.first() else { continue };
+            if all.iter().all(|other| is_zero(&minus(first, other))) {
+                self.axes[number].stands = Some(first.clone());
+                continue;
+            }
+            let joint = self.axes[number].joint;
+            for group in self.groups.iter_mut().filter(|g| g.stands.is_some()) {
+                let along = group.axes.iter().find(|&&(other, _)| other == number);
+                let again = along.map(|(_, along)| (joint, number, along.clone()));
+                group.again.extend(again);
             }
         }
         let number = |side: &Option<usize>| side.and_then(|side| axis[side]);
         let joints = of_joints.iter();
         self.joints = joints
-            .map(|(joint, _, of)| (*joint, of.each_ref().map(number)))
+            .map(|(joint, sort, of)| {
+                let [first, second] = of.each_ref().map(number);
+                let second = match sort {
+                    JointSort::Prismatic => first,
+                    _ => second,
+                };
+                (*joint, [first, second])
+            })
             .collect();
-        Ok(())
     }
 
     /// A direction in a group that is not along the given one, in its coordinates, at a right angle to it: toward another place of joints or points

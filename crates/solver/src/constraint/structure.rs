@@ -188,7 +188,7 @@ pub(crate) fn check_structure(problem: &Problem) -> Result<(), (Blame, String)> 
         let names = system.names(circuit.iter().copied());
         let to_spare = equations - found.rows.rank;
         parts.push(match names.as_slice() {
-            [one] => format!("over-constrained: {one} says the same twice"),
+            [one] => format!("over-constrained: {one} says something twice, or contradicts itself"),
             _ => format!(
                 "over-constrained: any of {} {DEPENDS}, remove one of them{}",
                 list(&names, LISTED),

@@ -4,6 +4,7 @@ use super::{Edited, Ending, Session, Setting};
 use crate::blocks::Account;
 use crate::interval::Interval;
 use crate::problem::{Decimal, Target};
+use crate::system::Located;
 use crate::track::Control;
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -15,6 +16,8 @@ pub struct Frame {
     pub value: Interval,
     /// The figure: a box that holds exactly one.
     pub points: Vec<[Interval; 3]>,
+    /// Where the problem's objects are in it.
+    pub objects: Vec<Located>,
 }
 
 /// What comes of a sweep.
@@ -64,6 +67,7 @@ impl Session {
         sweep.frames.push(Frame {
             value: self.length(index),
             points: self.points(),
+            objects: self.objects(),
         });
         for k in 1..frames {
             let value = between(from, to, k, frames - 1);
@@ -76,6 +80,7 @@ impl Session {
             sweep.frames.push(Frame {
                 value: self.length(index),
                 points: edited.points,
+                objects: edited.objects,
             });
         }
         sweep

@@ -27,6 +27,16 @@ pub enum WriteError {
         "{0}: legs on one line are no angle that a file has under `angles`: write it under `turns`"
     )]
     Straight(String),
+    /// The place of a body is not written in one line.
+    #[error(
+        "the place of `{0}` is written in parts: write it in one line under [places], as `{0} = {{ at = [...], z = [...], x = [...] }}`"
+    )]
+    Place(String),
+    /// The places of bodies are no table of their own.
+    #[error(
+        "[places] is no table with a line for each body, to which one could be added: write it so"
+    )]
+    Places,
 }
 
 /// Puts the places of points, the radii of circles, the values of unknowns and the dimensions of `problem` into the text of the file that it was read from,
@@ -96,8 +106,13 @@ pub fn rewrite(
             continue;
         }
         let there = table(root, "places").and_then(|places| places.get(&object.name));
-        if let Some(value) = there.and_then(Item::as_value) {
+        let in_one = there
+            .and_then(Item::as_inline_table)
+            .filter(|parts| !parts.is_dotted());
+        if let (Some(_), Some(value)) = (in_one, there.and_then(Item::as_value)) {
             put(value, place(at, axes))?;
+        } else if there.is_some() {
+            return Err(WriteError::Place(object.name.clone()));
         } else {
             let name = toml_edit::Key::new(&object.name);
             new_places += &format!("{name} = {}\n", place(at, axes));
@@ -217,8 +232,11 @@ pub fn rewrite(
     }
 
     if !new_places.is_empty() {
-        let heading = text.lines().position(|line| line.trim() == "[places]");
-        match heading {
+        let is_heading = |line: &str| {
+            let before = line.split('#').next().unwrap_or_default();
+            before.split_whitespace().collect::<String>() == "[places]"
+        };
+        match text.lines().position(is_heading) {
             Some(line) => {
                 let end = text
                     .split_inclusive('\n')
@@ -227,6 +245,7 @@ pub fn rewrite(
                     .sum();
                 changes.push((end..end, new_places));
             }
+            None if root.contains_key("places") => return Err(WriteError::Places),
             None => changes.push((text.len()..text.len(), format!("\n[places]\n{new_places}"))),
         }
     }

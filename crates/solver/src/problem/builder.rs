@@ -429,7 +429,7 @@ impl ProblemBuilder {
                             kind.is_some_and(|kind| kind.fixes(&problem, c).frame)
                         });
                 let name = fixing.map(|(index, _)| problem.constraint_name(index));
-                let name = format!("`{}`", name.unwrap_or_default());
+                let name = name.map_or("a body with joints".to_owned(), |name| format!("`{name}`"));
                 return Err(ProblemError::ReferenceInOwnFrame(name));
             }
             (None, true) => Vec::new(),

@@ -558,7 +558,23 @@ pub(super) fn check_names(problem: &super::Problem) -> Result<(), ProblemError> 
             _ => true,
         };
         if !all_flat {
-            return Err(fault("its third coordinate must be zero in the plane"));
+            return Err(fault(
+                "a third coordinate, of it or of its place, must be zero in the plane",
+            ));
+        }
+        let poses: Vec<&Pose> = match &object.shape {
+            Shape::Joint { frames, .. } => frames.iter().collect(),
+            Shape::Body { place, .. } => place.iter().map(|pose| &**pose).collect(),
+            _ => Vec::new(),
+        };
+        let is_up = |z: &[Decimal; 3]| {
+            let zero = Decimal::from(0);
+            z[0] == zero && z[1] == zero && z[2].is_positive()
+        };
+        if problem.dimension == 2 && !poses.iter().all(|pose| is_up(&pose.z)) {
+            return Err(fault(
+                "in the plane z is 0, 0, 1 for all bodies and joints: leave it out",
+            ));
         }
         if let Shape::Joint { sort, bodies, .. } = &object.shape {
             let is_body = |&b: &usize| {

@@ -43,6 +43,13 @@ impl Pose {
         Self::new([0, 0, 0], [0, 0, 1], [1, 0, 0]).expect("whole numbers are decimals")
     }
 
+    /// Where z is along x, x is y: any direction across will do where none is given.
+    fn turn_x_aside(&mut self) {
+        if self.z[1..].iter().all(|c| *c == Decimal::from(0)) {
+            self.x = [0, 1, 0].map(Decimal::from);
+        }
+    }
+
     fn floats(&self) -> Motion {
         let of = |v: &[Decimal; 3]| v.each_ref().each(|x| x.to_f64());
         let (z, x) = (of(&self.z), of(&self.x));
@@ -155,7 +162,8 @@ impl ProblemBuilder {
                     known.insert(body, pose.floats());
                 }
                 _ => {
-                    let bodies = objects.iter().map(|o| o.name.as_str());
+                    let is_body = |o: &&Object| matches!(o.shape, Shape::Body { .. });
+                    let bodies = objects.iter().filter(is_body).map(|o| o.name.as_str());
                     return Err(ProblemError::UnknownPoint {
                         objects: true,
                         place: Place::Whole,
@@ -209,7 +217,22 @@ impl ProblemBuilder {
             return Ok(());
         };
         let identity = Pose::identity().floats();
-        known.entry(ground).or_insert(identity);
+        let drawn = match &objects[ground].shape {
+            // Points that do not tell how it is turned tell where it is.
+            Shape::Body {
+                points: members,
+                local,
+                ..
+            } if !members.is_empty() => {
+                let of = |v: &[Decimal; 3]| v.each_ref().each(|x| x.to_f64());
+                (
+                    minus(of(&points[members[0]].sketch), of(&local[0])),
+                    identity.1,
+                )
+            }
+            _ => identity,
+        };
+        known.entry(ground).or_insert(drawn);
         let mut reached = vec![ground];
         let mut next = 0;
         loop {
@@ -339,11 +362,15 @@ impl Reader<'_> {
                 three.map(Some).ok_or_else(wrong)
             };
             let identity = Pose::identity();
-            let pose = Pose {
+            let mut pose = Pose {
                 at: of("at")?.unwrap_or(identity.at),
                 z: of("z")?.unwrap_or(identity.z),
-                x: of("x")?.unwrap_or(identity.x),
+                x: identity.x,
             };
+            match of("x")? {
+                Some(x) => pose.x = x,
+                None => pose.turn_x_aside(),
+            }
             builder = builder.place(name, pose);
         }
         Ok(builder)
@@ -382,6 +409,10 @@ impl Reader<'_> {
         let wrong = || self.wrong_kind(line, key, WANTED, item);
         let parts = item.as_table_like().ok_or_else(wrong)?;
         let sorts = JointSort::ALL.map(JointSort::key);
+        if !sorts.iter().any(|sort| parts.contains_key(sort)) {
+            let wanted = format!("{WANTED}, with one of {} in front", sorts.join(", "));
+            return Err(self.wrong_kind(line, key, &wanted, item));
+        }
         let known = [&sorts[..], &["at", "z", "x", "sketch"]].concat();
         self.known_keys(parts, &format!("{key}."), &known)?;
         let given: Vec<JointSort> = JointSort::ALL
@@ -422,12 +453,7 @@ impl Reader<'_> {
         }
         // Where only the axis is given, any direction across it will do.
         if !parts.contains_key("x") {
-            for frame in &mut frames {
-                let is_along_x = frame.z[1..].iter().all(|c| *c == Decimal::from(0));
-                if is_along_x {
-                    frame.x = [0, 1, 0].map(Decimal::from);
-                }
-            }
+            frames.iter_mut().for_each(Pose::turn_x_aside);
         }
         let mut builder = builder.joint(name, sort, [first, second], frames);
         if let Some(item) = parts.get("sketch") {

@@ -102,9 +102,10 @@ fn middle(place: &[Interval; 3]) -> Point3<f64> {
 
 /// The width of the widest coordinate or unknown number, divided by the size of the largest; 0 where all are exactly zero.
 pub(crate) fn relative_width(points: &[[Interval; 3]], objects: &[Located]) -> f64 {
-    let numbers = objects.iter().filter_map(|object| match object {
-        Located::Number(number) => Some(number),
-        _ => None,
+    let numbers = objects.iter().flat_map(|object| match object {
+        Located::Number(number) => std::slice::from_ref(number),
+        Located::Pose { at, .. } => &at[..],
+        _ => &[],
     });
     let all = points.iter().flatten().chain(numbers);
     let (widest, largest) = all.fold((0.0f64, 0.0f64), |(widest, largest), x| {

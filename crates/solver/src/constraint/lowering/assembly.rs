@@ -134,6 +134,12 @@ impl Lowering<'_> {
         }
         // Axes that the equations of a group tell whole, or that stand: such have no equation of their length.
         let mut is_told: Vec<bool> = made.plan.axes.iter().map(|a| a.stands.is_some()).collect();
+        for group in made.plan.groups.iter().filter(|g| g.stands.is_some()) {
+            group
+                .again
+                .iter()
+                .for_each(|&(_, axis, _)| is_told[axis] = true);
+        }
         for group in 0..made.plan.groups.len() {
             let frame = self.frame_of_group(&made, group, &mut is_told)?;
             made.groups.push(frame);
@@ -148,6 +154,7 @@ impl Lowering<'_> {
             let origin = self.origin_of_body(&made.plan, member);
             made.origins.push(origin);
         }
+        self.say_again(&made);
         for joint in 0..made.plan.joints.len() {
             self.join(&mut made, joint)?;
         }
@@ -246,7 +253,7 @@ impl Lowering<'_> {
         let name = format!("the angle between {} and {}", a.name, b.name);
         let products = self.dot(1, &a.forms, &b.forms);
         let start = Real::from(frame::dot(&a.at, &b.at));
-        self.meet(&name, products, &start, product, 0);
+        self.say(&name, products, &start, product, 0);
     }
 
     /// How a group is turned, with the unknowns and equations that tell it.
@@ -324,6 +331,37 @@ impl Lowering<'_> {
             is_told[*axis] = true;
         }
         Ok(frame)
+    }
+
+    /// What is told in two ways that are not known to agree.
+    fn say_again(&mut self, made: &Assembled) {
+        for (group, of) in made.plan.groups.iter().enumerate() {
+            for (joint, axis, direction) in &of.again {
+                self.begin(*joint);
+                let name = format!("{} again", made.axes[*axis].name);
+                let told = Sum {
+                    constant: none(),
+                    parts: vec![(Real::whole(1), made.axes[*axis].clone())],
+                };
+                let by = self.vector(&made.groups[group], direction);
+                self.vanish_all(&name, told.minus(by), 0);
+            }
+        }
+        for (joint, group, vector) in &made.plan.closing {
+            self.begin(*joint);
+            let name = format!("{} keeps directions", self.problem.objects[*joint].name);
+            let sum = self.vector(&made.groups[*group], vector);
+            self.vanish_all(&name, sum, 0);
+        }
+        for (body, vector) in &made.plan.standing {
+            self.begin(*body);
+            let name = format!("{} stands", self.problem.objects[*body].name);
+            let sum = Sum {
+                constant: vector.clone(),
+                parts: Vec::new(),
+            };
+            self.vanish_all(&name, sum, 0);
+        }
     }
 
     /// A vector of a group, by its coordinates in it.
@@ -460,10 +498,6 @@ impl Lowering<'_> {
             .expect("a joint of the problem");
         let name = self.problem.objects[joint].name.clone();
         let at = frames.each_ref().map(|frame| exact(&frame.at));
-        let stand = bodies.map(|body| self.problem.standing_bodies().contains(&body));
-        if stand == [true, true] {
-            return Err("both of its bodies stand: leave one out of `fixed`".to_owned());
-        }
         if let (JointSort::Universal, [Some((one, _)), Some((other, _))]) = (sort, ends) {
             let [one, other] = [one, other].map(|axis| made.axes[axis].clone());
             self.have_product(&one, &other, Real::zero());
@@ -715,7 +749,27 @@ impl Lowering<'_> {
     ) {
         for (k, products) in products.into_iter().enumerate() {
             let start = Real::from(&start[k] - near(&constant[k]));
-            self.meet(name, products, &start, -&constant[k], power);
+            self.say(name, products, &start, -&constant[k], power);
+        }
+    }
+
+    /// The equation Σ products = `target`. Of numbers alone, where it does not hold by itself, it says of their difference, which has an equation of its own, that
+    /// it is zero.
+    fn say(&mut self, name: &str, products: Vec<Product>, start: &Real, target: Real, power: i32) {
+        if !products
+            .iter()
+            .all(|p| is_constant(p.left) && is_constant(p.right))
+        {
+            return self.meet(name, products, start, target, power);
+        }
+        let number = products.iter().fold(-&target, |sum, p| {
+            let both = [p.left, p.right].iter().all(|form| *form == Form::One);
+            &sum + &Real::whole(i64::from(p.factor) * i64::from(both))
+        });
+        if !number.is_zero() {
+            let entry = self.coefficient(name, power, Parity::Even, vec![number.clone()]);
+            let products = vec![Product::new(1, value(entry), Form::One)];
+            self.meet(name, products, &number, Real::zero(), power);
         }
     }
 }
@@ -724,6 +778,11 @@ impl Lowering<'_> {
 fn are_apart(a: &Exact, b: &Exact) -> bool {
     let product = dot(a, b).enclose().mag();
     product * product <= 0.5
+}
+
+/// Whether a factor is 0 or 1.
+fn is_constant(form: Form) -> bool {
+    form == Form::One || form == value(Entry::Zero)
 }
 
 /// The vectors that are not taken zero times.
