@@ -223,7 +223,7 @@ fn frames(joint: Node, sort: JointSort) -> Result<[Pose; 2], String> {
         far(a).total_cmp(&far(b))
     });
     let x = across.expect("there are three axes");
-    let three = |v: [f64; 3]| v.map(|x| Decimal::try_from(x).unwrap_or(Decimal::from(0)));
+    let three = |v: [f64; 3]| v.map(|x| x.to_string().parse().unwrap_or(Decimal::from(0)));
     Ok([
         Pose {
             at,

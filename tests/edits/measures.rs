@@ -263,6 +263,14 @@ fn cases() -> Vec<Case> {
         others: &[("equations", "2*u = |p-b|")],
         ..case("values", "\"u\"", |[_, b, _, _, p, _]| apart(p, b) / 2.0)
     });
+    // A cart on a rail, and a tool on the cart that has p.
+    all.push(Case {
+        dimensions: plane,
+        absolute: true,
+        objects: "[bodies]\ng = {}\ncart = {}\ntool = { p = [0, 0] }\n[joints]\n\
+                  s = { prismatic = [\"g\", \"cart\"] }\nt = { prismatic = [\"cart\", \"tool\"], x = [[0, 1], [0, 1]] }\n",
+        ..case("travels", "\"s\"", |[_, _, _, _, p, _]| p[0])
+    });
     // Parallel lines: that through p and q, and that through b and d.
     all.push(Case {
         dimensions: plane,
