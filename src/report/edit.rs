@@ -3,6 +3,7 @@
 use super::JSON_VERSION;
 use super::certain_digits;
 use super::drawing::{Drawing, names};
+use super::objects::joints_to_value;
 use super::table::write_joints;
 use crate::blocks::{Account, Why};
 use crate::edit::{
@@ -490,7 +491,7 @@ pub fn edit_to_value(problem: &Problem, edited: &Edited, moved: Moved) -> Value 
     if unknowns.as_object().is_some_and(|all| !all.is_empty()) {
         value["unknowns"] = unknowns;
     }
-    if let Some(joints) = joints_to_value(problem, &edited.objects, middle) {
+    if let Some(joints) = joints_to_value(problem, &edited.objects, |x| x.mid()) {
         value["joints"] = joints;
     }
     value
@@ -672,39 +673,6 @@ pub(super) fn numbers_to_value(
         .filter_map(|(object, at)| Some((object.name.clone(), number(at.number()?))))
         .collect();
     Value::Object(all)
-}
-
-/// Bodies with joints and joints, by name, each as `number` has it.
-pub(super) fn joints_to_value(
-    problem: &Problem,
-    objects: &[Located],
-    number: impl Fn(Interval) -> Value,
-) -> Option<Value> {
-    let three = |x: &[Interval; 3]| -> Value {
-        let numbers = x[..problem.dimension].iter().map(|&x| number(x));
-        Value::Array(numbers.collect())
-    };
-    let all: Map<String, Value> = own(problem, objects)
-        .filter_map(|(object, at)| {
-            let told: Map<String, Value> = match at {
-                Located::Pose { at, axes } => {
-                    let axes = ["x", "y", "z"]
-                        .into_iter()
-                        .zip(axes)
-                        .take(problem.dimension);
-                    let all = [("at", at)].into_iter().chain(axes);
-                    all.map(|(name, v)| (name.to_owned(), three(v))).collect()
-                }
-                Located::Joint { turn, travel } => [("turn", turn), ("travel", travel)]
-                    .into_iter()
-                    .filter_map(|(name, x)| Some((name.to_owned(), number((*x)?))))
-                    .collect(),
-                _ => return None,
-            };
-            Some((object.name.clone(), Value::Object(told)))
-        })
-        .collect();
-    (!all.is_empty()).then_some(Value::Object(all))
 }
 
 /// The radii of circles, the values of unknown numbers, bodies with joints and joints, a line each.

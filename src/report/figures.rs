@@ -1,9 +1,8 @@
 //! The figures of a sketch in its own frame, as its blocks give them.
 
 use super::drawing::Drawing;
-use super::edit::{
-    bounds, joints_to_value, numbers_to_value, points_to_value, write_numbers, write_points,
-};
+use super::edit::{bounds, numbers_to_value, points_to_value, write_numbers, write_points};
+use super::objects::joints_to_value;
 use super::supposed::supposed;
 use crate::blocks::{BlockAccount, Chosen, Comparison, Figures, First, Sense, Way};
 use crate::problem::Shape;
@@ -404,7 +403,7 @@ pub fn figures_to_value(figures: &Figures, listed: Listed) -> Value {
         if unknowns.as_object().is_some_and(|all| !all.is_empty()) {
             value["unknowns"] = unknowns;
         }
-        if let Some(joints) = joints_to_value(problem, &objects, bounds) {
+        if let Some(joints) = joints_to_value(problem, &objects, |x| *x) {
             value["joints"] = joints;
         }
         value

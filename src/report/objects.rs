@@ -7,12 +7,29 @@ use crate::problem::{Decimal, Problem, Shape};
 use crate::system::Located;
 use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
+use serde_json::Value;
 
 /// The objects of a figure by name, each in the numbers that say where it is. Rigid bodies have none: they are where
 /// their points are.
 pub(super) struct Objects<'a, C> {
     dimension: usize,
     all: Vec<(&'a str, At<C>)>,
+}
+
+/// Bodies with joints and joints alone, each number as `number` has it. `None`: there are none.
+pub(super) fn joints_to_value<C: Coordinate>(
+    problem: &Problem,
+    objects: &[Located],
+    number: impl Fn(&Interval) -> C,
+) -> Option<Value> {
+    let joints = objects.iter().map(|at| match at {
+        Located::Pose { .. } | Located::Joint { .. } => *at,
+        _ => Located::Body,
+    });
+    let joints: Vec<Located> = joints.collect();
+    let joints = Objects::new(problem, &joints, number);
+    let value = || serde_json::to_value(&joints).expect("names and numbers have a form in JSON");
+    (!joints.is_empty()).then(value)
 }
 
 enum At<C> {

@@ -3,10 +3,10 @@
 use super::certain_digits;
 use super::drawing::{Drawing, names};
 use super::edit::{
-    bounds, edit_in_words, edit_to_value, joints_to_value, limit_in_words, points_to_value, short,
-    write_moved,
+    bounds, edit_in_words, edit_to_value, limit_in_words, points_to_value, short, write_moved,
 };
 use super::measured::Measures;
+use super::objects::joints_to_value;
 use crate::edit::{Edited, End, Ending, Moved, Range, Sweep};
 use crate::interval::Interval;
 use crate::places::{Each as _, array};
@@ -181,7 +181,7 @@ pub fn sweep_to_value(problem: &Problem, index: usize, sweep: &Sweep) -> Value {
     let frames = sweep.frames.iter().map(|frame| {
         let mut value =
             json!({"value": bounds(frame.value), "points": points_to_value(problem, &frame.points)});
-        if let Some(joints) = joints_to_value(problem, &frame.objects, bounds) {
+        if let Some(joints) = joints_to_value(problem, &frame.objects, |x| *x) {
             value["joints"] = joints;
         }
         value

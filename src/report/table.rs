@@ -402,10 +402,7 @@ pub(super) fn write_objects(
         Mode::Certified => certain_digits(*x),
         Mode::Float => float_digits(x.mid()),
     };
-    let place = |x: &[Interval; 3]| {
-        let all: Vec<String> = x[..problem.dimension].iter().map(digits).collect();
-        format!("({})", all.join(", "))
-    };
+    let place = |x: &[Interval; 3]| in_brackets(&x[..problem.dimension], &digits);
     for (object, at) in problem.objects.iter().zip(objects) {
         let name = &object.name;
         match (&object.shape, at) {
@@ -440,6 +437,11 @@ pub(super) fn write_objects(
     write_joints(out, problem, objects, &digits)
 }
 
+fn in_brackets(numbers: &[Interval], digits: &dyn Fn(&Interval) -> String) -> String {
+    let all: Vec<String> = numbers.iter().map(digits).collect();
+    format!("({})", all.join(", "))
+}
+
 /// Joints and the bodies between them that move, a line each: `digits` has a number as text.
 pub(super) fn write_joints(
     out: &mut String,
@@ -447,10 +449,7 @@ pub(super) fn write_joints(
     objects: &[Located],
     digits: &dyn Fn(&Interval) -> String,
 ) -> fmt::Result {
-    let place = |x: &[Interval; 3]| {
-        let all: Vec<String> = x[..problem.dimension].iter().map(digits).collect();
-        format!("({})", all.join(", "))
-    };
+    let place = |x: &[Interval; 3]| in_brackets(&x[..problem.dimension], digits);
     for (object, at) in problem.objects.iter().zip(objects) {
         if let Located::Joint { turn, travel } = at {
             let turn = turn

@@ -230,3 +230,21 @@ fn a_robot_in_urdf_is_read() {
         "{said}"
     );
 }
+
+/// Paths and sets of figures with joints leave certificates as all others do.
+#[test]
+fn certificates_of_joints_are_verified() {
+    let directory = tempfile::tempdir().unwrap();
+    let certificate = directory.path().join("joints.krawl");
+    let certificate = certificate.to_str().unwrap();
+    for (verb, file) in [
+        ("solve", SLIDER),
+        ("solve", "docs/examples/ur5.toml"),
+        ("all", "docs/examples/ur5.toml"),
+    ] {
+        let (code, said) = run(&[verb, file, "--cert", certificate]);
+        assert_eq!(code, Some(0), "{said}");
+        let (code, said) = run(&["verify", certificate, file]);
+        assert!(code == Some(0) && said.contains("VERIFIED"), "{said}");
+    }
+}

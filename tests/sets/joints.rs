@@ -644,3 +644,27 @@ fn slides_go_along_any_direction() {
         assert!((size - 2.0).abs() < 1e-12);
     }
 }
+
+/// Two bodies that two hinges connect tell the hinges' directions, each by the other; their lengths are 1 all the same. With a point of one body given where no turn
+/// brings it there is no figure, and where one does there are two.
+#[test]
+fn axes_that_tell_each_other_have_the_length_one() {
+    let found = |z: &str| {
+        let text = format!(
+            "dimension = 3\n[points]\nP = [0.3, 0.4, 1.8]\nQ = [1, 0.1, 0.1]\n[bodies]\ng = {{}}\na = {{ P = [0, 0, 2], Q = [1, 0, 0] }}\nb = {{}}\n[joints]\n\
+             S = {{ spherical = [\"g\", \"a\"] }}\nH = {{ revolute = [\"a\", \"b\"] }}\n\
+             K = {{ revolute = [\"a\", \"b\"], at = [[1, 0, 0], [1, 0, 0]], z = [[0, -0.28, 0.96], [0, -0.28, 0.96]] }}\n\
+             [constraints]\nx = [[\"P\", 0.48]]\ny = [[\"P\", 0.64], [\"Q\", 0]]\nz = [[\"P\", {z}]]\n"
+        );
+        let problem = Problem::parse_loosely(&text, "hinges.toml").unwrap();
+        let options = Options {
+            most_boxes: 5000,
+            ..Options::default()
+        };
+        let found = all(&problem, &options).unwrap();
+        (found.status, found.solutions.len())
+    };
+    // |P| is 2: 0.48² + 0.64² + z² = 4. What is left out where that does not hold may leave a curve, but no figure.
+    assert_eq!(found("1.9").1, 0);
+    assert_eq!(found("1.83303028"), (Status::Complete, 2));
+}

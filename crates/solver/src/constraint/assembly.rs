@@ -5,6 +5,7 @@
 //! unknowns, and no length twice (J. García de Jalón and E. Bayo, Kinematic and Dynamic Simulation of Multibody Systems, chapter 2: natural
 //! coordinates).
 
+use super::frame::{cross, dot, minus, plus, times};
 use super::lowering::Fault;
 use crate::decimal::Decimal;
 use crate::interval::Real;
@@ -21,37 +22,6 @@ pub type Turned = [Exact; 3];
 /// The vector of three decimals.
 pub fn exact(of: &[Decimal; 3]) -> Exact {
     of.each_ref().map(|x| Real::from(x.value().clone()))
-}
-
-/// a · b.
-pub fn dot(a: &Exact, b: &Exact) -> Real {
-    (0..3).fold(Real::zero(), |sum, k| &sum + &(&a[k] * &b[k]))
-}
-
-/// a × b.
-pub fn cross(a: &Exact, b: &Exact) -> Exact {
-    from_fn(|k| {
-        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-        &(&a[i] * &b[j]) - &(&a[j] * &b[i])
-    })
-}
-
-/// factor · a.
-pub fn times(factor: &Real, a: &Exact) -> Exact {
-    a.each_ref().map(|x| factor * x)
-}
-
-/// a + b.
-pub fn plus(a: &Exact, b: &Exact) -> Exact {
-    from_fn(|k| &a[k] + &b[k])
-}
-
-/// a − b, where both are written alike zero.
-fn minus(a: &Exact, b: &Exact) -> Exact {
-    from_fn(|k| match a[k] == b[k] {
-        true => Real::zero(),
-        false => &a[k] - &b[k],
-    })
 }
 
 /// Whether two vectors are known to have one direction.
@@ -93,9 +63,8 @@ fn unit(a: &Exact) -> Exact {
 
 /// The vector in which a frame has these coordinates.
 pub fn out_of(axes: &Turned, v: &Exact) -> Exact {
-    (0..3).fold(from_fn(|_| Real::zero()), |sum, k| {
-        plus(&sum, &times(&v[k], &axes[k]))
-    })
+    let part = |k: usize| times(&v[k], &axes[k]);
+    plus(&plus(&part(0), &part(1)), &part(2))
 }
 
 /// The axes of a pose.
@@ -113,6 +82,12 @@ pub fn axes(pose: &Pose) -> Result<Turned, Fault> {
     }
     let (z, y) = (unit(&z), unit(&y));
     Ok([cross(&y, &z), y, z])
+}
+
+/// The axes of a body with joints in the sketch.
+pub fn drawn(problem: &Problem, body: usize) -> Turned {
+    let place = problem.objects[body].place();
+    axes(place.expect("a body with joints")).expect("checked before")
 }
 
 /// A body: the bodies that turn with it, and how it is turned among them.
@@ -182,13 +157,7 @@ impl Assembly {
         };
         for (index, object) in problem.objects.iter().enumerate() {
             let of = |pose: &Pose| axes(pose).map(|_| ()).map_err(|fault| (index, fault));
-            match &object.shape {
-                Shape::Body {
-                    place: Some(pose), ..
-                } => of(pose)?,
-                Shape::Joint { frames, .. } => frames.iter().try_for_each(of)?,
-                _ => {}
-            }
+            object.poses().try_for_each(of)?;
         }
         made.gather(problem);
         made.stand(problem);
@@ -219,9 +188,7 @@ impl Assembly {
         let identity: Turned = from_fn(|i| from_fn(|k| Real::whole(i64::from(i == k))));
         let mut used = HashSet::new();
         for (body, object) in problem.objects.iter().enumerate() {
-            if !matches!(object.shape, Shape::Body { place: Some(_), .. })
-                || self.members.iter().any(|m| m.body == body)
-            {
+            if object.place().is_none() || self.members.iter().any(|m| m.body == body) {
                 continue;
             }
             let group = self.groups.len();
@@ -267,13 +234,7 @@ impl Assembly {
     /// The groups that stand.
     fn stand(&mut self, problem: &Problem) {
         for body in problem.standing_bodies() {
-            let Shape::Body {
-                place: Some(pose), ..
-            } = &problem.objects[body].shape
-            else {
-                unreachable!("a body with joints")
-            };
-            let here = axes(pose).expect("checked before");
+            let here = drawn(problem, body);
             let member = self.member(body);
             let (group, turned) = (member.group, member.turned.clone());
             match &self.groups[group].stands {
@@ -424,16 +385,13 @@ impl Assembly {
                 places.extend(local.iter().map(exact));
             }
             let first = places.first().cloned().unwrap_or(from_fn(|_| Real::zero()));
-            let apart = |place: &Exact| {
-                let from = plus(place, &times(&Real::whole(-1), &first));
-                out_of(&member.turned, &from)
-            };
+            let apart = |place: &Exact| out_of(&member.turned, &minus(place, &first));
             found.extend(places.iter().map(apart));
         }
         found.extend((0..3).map(|k| from_fn(|i| Real::whole(i64::from(i == k)))));
         let across = found.iter().map(|v| {
             let along = dot(v, axis);
-            plus(v, &times(&-&along, axis))
+            minus(v, &times(&along, axis))
         });
         let is_far = |v: &Exact| {
             let square = dot(v, v).enclose();

@@ -5,6 +5,7 @@ use crate::interval::Real;
 use crate::statement::Problem;
 use num_rational::BigRational;
 use num_traits::{One, Zero};
+use std::ops::{Add, Mul, Sub};
 
 /// A place or a direction in the coordinates of the file; the third number is zero in the plane.
 pub type Vector = [BigRational; 3];
@@ -20,28 +21,44 @@ pub fn vector(of: &[Decimal; 3]) -> Vector {
 }
 
 /// a + b.
-pub fn plus(a: &Vector, b: &Vector) -> Vector {
+pub fn plus<T>(a: &[T; 3], b: &[T; 3]) -> [T; 3]
+where
+    for<'a> &'a T: Add<&'a T, Output = T>,
+{
     std::array::from_fn(|k| &a[k] + &b[k])
 }
 
 /// a − b.
-pub fn minus(a: &Vector, b: &Vector) -> Vector {
+pub fn minus<T>(a: &[T; 3], b: &[T; 3]) -> [T; 3]
+where
+    for<'a> &'a T: Sub<&'a T, Output = T>,
+{
     std::array::from_fn(|k| &a[k] - &b[k])
 }
 
 /// factor · a.
-pub fn times(factor: &BigRational, a: &Vector) -> Vector {
+pub fn times<T>(factor: &T, a: &[T; 3]) -> [T; 3]
+where
+    for<'a> &'a T: Mul<&'a T, Output = T>,
+{
     a.each_ref().map(|x| factor * x)
 }
 
 /// a · b.
-pub fn dot(a: &Vector, b: &Vector) -> BigRational {
-    (0..3).fold(zero(), |sum, k| sum + &a[k] * &b[k])
+pub fn dot<T>(a: &[T; 3], b: &[T; 3]) -> T
+where
+    for<'a> &'a T: Add<&'a T, Output = T> + Mul<&'a T, Output = T>,
+{
+    let product = |k: usize| &a[k] * &b[k];
+    &(&product(0) + &product(1)) + &product(2)
 }
 
 /// a × b.
-pub fn cross(a: &Vector, b: &Vector) -> Vector {
-    let minor = |i: usize, j: usize| &a[i] * &b[j] - &a[j] * &b[i];
+pub fn cross<T>(a: &[T; 3], b: &[T; 3]) -> [T; 3]
+where
+    for<'a> &'a T: Sub<&'a T, Output = T> + Mul<&'a T, Output = T>,
+{
+    let minor = |i: usize, j: usize| &(&a[i] * &b[j]) - &(&a[j] * &b[i]);
     [minor(1, 2), minor(2, 0), minor(0, 1)]
 }
 

@@ -1,7 +1,7 @@
 //! Vectors of three numbers: intervals, floats, complex numbers.
 
 use super::Interval;
-use crate::places::Each as _;
+use crate::places::{Each as _, array};
 use std::ops::{Add, Mul, Sub};
 
 /// A vector in space; in the plane the last entry is zero.
@@ -24,6 +24,14 @@ pub fn cross<T: Copy + Sub<Output = T> + Mul<Output = T>>(a: [T; 3], b: [T; 3]) 
         a[2] * b[0] - a[0] * b[2],
         a[0] * b[1] - a[1] * b[0],
     ]
+}
+
+/// The vector in which a frame of these axes has these coordinates.
+pub fn out_of<T: Copy + Add<Output = T> + Mul<Output = T>>(
+    axes: &[[T; 3]; 3],
+    v: &[T; 3],
+) -> [T; 3] {
+    array(|k| v[0] * axes[0][k] + v[1] * axes[1][k] + v[2] * axes[2][k])
 }
 
 /// |v|.

@@ -551,36 +551,26 @@ pub(super) fn check_names(problem: &super::Problem) -> Result<(), ProblemError> 
         let flat = |v: &[Decimal; 3]| problem.dimension == 3 || v[2] == Decimal::from(0);
         let all_flat = match &object.shape {
             Shape::FreeLine { point, direction } => flat(point) && flat(direction),
-            Shape::Body { local, place, .. } => {
-                local.iter().all(flat) && place.iter().all(|pose| flat(&pose.at) && flat(&pose.x))
-            }
-            Shape::Joint { frames, .. } => frames.iter().all(|f| flat(&f.at) && flat(&f.x)),
+            Shape::Body { local, .. } => local.iter().all(flat),
             _ => true,
         };
+        let all_flat = all_flat && object.poses().all(|pose| flat(&pose.at) && flat(&pose.x));
         if !all_flat {
             return Err(fault(
                 "a third coordinate, of it or of its place, must be zero in the plane",
             ));
         }
-        let poses: Vec<&Pose> = match &object.shape {
-            Shape::Joint { frames, .. } => frames.iter().collect(),
-            Shape::Body { place, .. } => place.iter().map(|pose| &**pose).collect(),
-            _ => Vec::new(),
-        };
         let is_up = |z: &[Decimal; 3]| {
             let zero = Decimal::from(0);
             z[0] == zero && z[1] == zero && z[2].is_positive()
         };
-        if problem.dimension == 2 && !poses.iter().all(|pose| is_up(&pose.z)) {
+        if problem.dimension == 2 && !object.poses().all(|pose| is_up(&pose.z)) {
             return Err(fault(
                 "in the plane z is 0, 0, 1 for all bodies and joints: leave it out",
             ));
         }
         if let Shape::Joint { sort, bodies, .. } = &object.shape {
-            let is_body = |&b: &usize| {
-                let shape = problem.objects.get(b).map(|object| &object.shape);
-                matches!(shape, Some(Shape::Body { place: Some(_), .. }))
-            };
+            let is_body = |&b: &usize| problem.objects.get(b).is_some_and(|o| o.place().is_some());
             if !bodies.iter().all(is_body) || bodies[0] == bodies[1] {
                 return Err(fault("a joint is of two bodies: name two"));
             }

@@ -5,7 +5,7 @@ use super::draft::DraftShape;
 use super::error::Place;
 use super::file::{FileError, Line, Reader};
 use super::{Decimal, DecimalError, JointSort, Object, Point, Pose, ProblemError, Shape};
-use crate::interval::vector::{cross, dot, length, minus};
+use crate::interval::vector::{cross, dot, length, minus, out_of};
 use crate::places::{Each as _, array};
 use crate::statement::nearest;
 use std::collections::HashMap;
@@ -86,10 +86,6 @@ fn then(first: &Motion, second: &Motion) -> Motion {
         array(|k| first.0[k] + at[k]),
         second.1.each_ref().map(turned),
     )
-}
-
-fn out_of(axes: &[[f64; 3]; 3], v: &[f64; 3]) -> [f64; 3] {
-    array(|k| (0..3).map(|i| v[i] * axes[i][k]).sum())
 }
 
 /// What undoes a motion.

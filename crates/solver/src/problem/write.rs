@@ -175,15 +175,8 @@ impl Problem {
                 writeln!(out, "{} = {text}", toml_edit::Key::new(&object.name))?;
             }
         }
-        let placed = self
-            .objects
-            .iter()
-            .filter_map(|object| match &object.shape {
-                Shape::Body {
-                    place: Some(pose), ..
-                } => Some((&object.name, pose)),
-                _ => None,
-            });
+        let placed = self.objects.iter();
+        let placed = placed.filter_map(|object| Some((&object.name, object.place()?)));
         for (index, (name, pose)) in placed.enumerate() {
             if index == 0 {
                 writeln!(out, "\n[places]")?;

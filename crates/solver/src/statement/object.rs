@@ -30,6 +30,23 @@ impl Object {
         }
     }
 
+    /// Where it is in the sketch, of a body with joints.
+    pub fn place(&self) -> Option<&Pose> {
+        match &self.shape {
+            Shape::Body { place, .. } => place.as_deref(),
+            _ => None,
+        }
+    }
+
+    /// The frames that it has: of a body with joints its place in the sketch, of a joint those in both of its bodies.
+    pub fn poses(&self) -> impl Iterator<Item = &Pose> {
+        let of_joint = match &self.shape {
+            Shape::Joint { frames, .. } => &frames[..],
+            _ => &[],
+        };
+        self.place().into_iter().chain(of_joint)
+    }
+
     /// The points that say where it is, as far as points do: of a circle or sphere the centre, of an arc the centre and
     /// both ends.
     pub fn points(&self) -> Vec<usize> {
@@ -230,15 +247,14 @@ impl Problem {
 
     /// Whether there are bodies with joints, of which one stands still.
     pub fn has_joints(&self) -> bool {
-        let mut objects = self.objects.iter();
-        objects.any(|o| matches!(o.shape, Shape::Body { place: Some(_), .. }))
+        self.objects.iter().any(|object| object.place().is_some())
     }
 
     /// Bodies with joints that stay where the sketch has them: those that are `fixed`, and if there is none, the first.
     pub fn standing_bodies(&self) -> Vec<usize> {
-        let bodies = self.objects.iter().enumerate();
-        let bodies = bodies.filter(|(_, o)| matches!(o.shape, Shape::Body { place: Some(_), .. }));
-        let all: Vec<usize> = bodies.map(|(index, _)| index).collect();
+        let bodies = 0..self.objects.len();
+        let bodies = bodies.filter(|&body| self.objects[body].place().is_some());
+        let all: Vec<usize> = bodies.collect();
         let is_fixed = |body: usize| {
             let mut constraints = self.constraints.iter();
             constraints.any(|c| c.kind == "fixed" && c.items.contains(&Item::Object(body)))

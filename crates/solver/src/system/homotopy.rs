@@ -559,12 +559,8 @@ impl Homotopy {
 pub(crate) fn typical_length(problem: &Problem) -> f64 {
     let mean = if problem.distances.is_empty() {
         let mut places = problem.places();
-        places.extend(problem.objects.iter().filter_map(|o| match &o.shape {
-            Shape::Body {
-                place: Some(pose), ..
-            } => Some(pose.at.each_ref().map(Decimal::to_f64)),
-            _ => None,
-        }));
+        let bodies = problem.objects.iter().filter_map(|o| o.place());
+        places.extend(bodies.map(|place| place.at.each_ref().map(Decimal::to_f64)));
         let n = places.len().max(1) as f64;
         let middle: [f64; 3] = array(|k| places.iter().map(|p| p[k]).sum::<f64>() / n);
         let mean = places.iter().map(|p| distance(*p, middle)).sum::<f64>() / n;

@@ -2,7 +2,9 @@
 
 use super::Homotopy;
 use crate::constraint::{Entry, Form, Posed};
-use crate::interval::{Interval, angle::direction, enclose, hull, point};
+use crate::interval::angle::direction;
+use crate::interval::vector::{cross, dot, minus, out_of};
+use crate::interval::{Interval, enclose, hull, point};
 use crate::places::{Each as _, array};
 use crate::problem::{Decimal, JointSort, Pose, Shape};
 use std::collections::HashMap;
@@ -91,7 +93,7 @@ impl Located {
 
     /// The plane through a place, along two vectors.
     pub fn plane_along(point: [Interval; 3], u: [Interval; 3], v: [Interval; 3]) -> Self {
-        Located::plane(point, cross(&u, &v))
+        Located::plane(point, cross(u, v))
     }
 }
 
@@ -130,13 +132,13 @@ pub fn locate(
     let objects = shapes.iter().zip(own).enumerate();
     objects
         .map(|(index, (shape, own))| match shape {
-            Shape::Line([a, b]) => Located::line(points[*a], minus(&points[*b], &points[*a])),
+            Shape::Line([a, b]) => Located::line(points[*a], minus(points[*b], points[*a])),
             Shape::FreeLine { .. } => {
                 let (base, along) = own.split_at(dimension);
                 Located::line(three(base).map(|x| x * unit), three(along))
             }
             Shape::Plane([a, b, c]) => {
-                let [u, v] = [b, c].map(|&p| minus(&points[p], &points[*a]));
+                let [u, v] = [b, c].map(|&p| minus(points[p], points[*a]));
                 Located::plane_along(points[*a], u, v)
             }
             Shape::FreePlane { .. } => {
@@ -184,27 +186,21 @@ fn pose_of(posed: &Posed, unit: Interval, value: impl Fn(Entry) -> Interval) -> 
         .iter()
         .map(|forms| forms.each_ref().each(form))
         .collect();
+    let (zero, one) = (point(0.0), point(1.0));
     let basis = match along[..] {
-        [] => array(|i| array(|k| point(f64::from(u8::from(i == k))))),
-        [e] => [
-            e,
-            [-e[1], e[0], point(0.0)],
-            array(|k| point(f64::from(u8::from(k == 2)))),
-        ],
-        [e, f, ..] => [e, f, cross(&e, &f)],
+        [] => [[one, zero, zero], [zero, one, zero], [zero, zero, one]],
+        [e] => [e, [-e[1], e[0], zero], [zero, zero, one]],
+        [e, f, ..] => [e, f, cross(e, f)],
     };
-    let out = |axis: &[Interval; 3]| -> [Interval; 3] {
-        array(|k| (0..3).fold(point(0.0), |sum, i| sum + axis[i] * basis[i][k]))
-    };
-    let [x, y, z] = posed.axes.each_ref().map(out);
+    let [x, y, z] = posed.axes.each_ref().map(|axis| out_of(&basis, axis));
     [at, x, y, z]
 }
 
 /// The axes of a frame.
 fn axes_of(pose: &Pose) -> [[Interval; 3]; 3] {
     let [z, x] = [&pose.z, &pose.x].map(|v| v.each_ref().each(enclose));
-    let y = cross(&z, &x);
-    [cross(&y, &z), y, z].map(unit_vector)
+    let y = cross(z, x);
+    [cross(y, z), y, z].map(unit_vector)
 }
 
 /// What a joint measures, by the poses of its bodies.
@@ -215,39 +211,21 @@ fn joint_of(
     frames: &[Pose; 2],
 ) -> Located {
     let [first, second] = [0, 1].map(|side| {
-        let (pose, frame) = (bodies[side], &frames[side]);
-        let out = |v: &[Interval; 3]| -> [Interval; 3] {
-            array(|k| (0..3).fold(point(0.0), |sum, i| sum + v[i] * pose[1 + i][k]))
-        };
-        let at = out(&frame.at.each_ref().each(enclose));
-        let axes = axes_of(frame).each_ref().map(out);
-        let origin: [Interval; 3] = array(|k| pose[0][k] + at[k]);
-        (origin, axes)
+        let (&[at, x, y, z], frame) = (bodies[side], &frames[side]);
+        let from = out_of(&[x, y, z], &frame.at.each_ref().each(enclose));
+        let origin: [Interval; 3] = array(|k| at[k] + from[k]);
+        let axes = axes_of(frame);
+        (origin, axes.map(|axis| out_of(&[x, y, z], &axis)))
     });
-    let dot =
-        |a: &[Interval; 3], b: &[Interval; 3]| (0..3).fold(point(0.0), |s, k| s + a[k] * b[k]);
-    let [x, y, z] = &first.1;
-    let turn = || {
-        let other = &second.1[0];
-        direction(dot(x, other), dot(y, other))
-    };
-    let apart = minus(&second.0, &first.0);
+    let [x, y, z] = first.1;
+    let other = second.1[0];
     let along = if dimension == 2 { x } else { z };
+    let turn = || direction(dot(x, other), dot(y, other));
+    let travel = || dot(minus(second.0, first.0), along);
     Located::Joint {
         turn: sort.turns().then(turn),
-        travel: sort.travels().then(|| dot(&apart, along)),
+        travel: sort.travels().then(travel),
     }
-}
-
-fn minus(a: &[Interval; 3], b: &[Interval; 3]) -> [Interval; 3] {
-    array(|k| a[k] - b[k])
-}
-
-fn cross(a: &[Interval; 3], b: &[Interval; 3]) -> [Interval; 3] {
-    array(|k| {
-        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-        a[i] * b[j] - a[j] * b[i]
-    })
 }
 
 /// A vector divided by its length; where that may be zero, nothing is known of its coordinates but that they are between

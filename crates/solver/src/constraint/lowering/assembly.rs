@@ -1,11 +1,9 @@
 //! The unknowns and equations of bodies with joints: see [`crate::constraint::assembly`].
 
-use super::super::assembly::{
-    Assembly, Exact, Turned, axes, dot, exact, joints, out_of, plus, times,
-};
-use super::super::frame::{self, Vector};
+use super::super::assembly::{Assembly, Exact, Turned, axes, drawn, exact, joints, out_of};
+use super::super::frame::{self, Vector, dot, minus, plus};
 use super::super::objects::turned;
-use super::super::quadratic::{Entry, Form, Posed, Product, Role, value};
+use super::super::quadratic::{Entry, Form, Posed, Product, value};
 use super::{Arrow, Fault, Lowering, Parity, Place};
 use crate::interval::Real;
 use crate::order::InOrder;
@@ -61,9 +59,27 @@ struct Sum {
 }
 
 impl Sum {
+    fn constant(constant: Exact) -> Self {
+        Sum {
+            constant,
+            parts: Vec::new(),
+        }
+    }
+
+    fn of(parts: Vec<(Real, Arrow)>) -> Self {
+        Sum {
+            constant: std::array::from_fn(|_| Real::zero()),
+            parts: parts.into_iter().filter(|(c, _)| !c.is_zero()).collect(),
+        }
+    }
+
+    fn one(arrow: Arrow) -> Self {
+        Sum::of(vec![(Real::whole(1), arrow)])
+    }
+
     fn minus(mut self, other: Sum) -> Self {
         let back = Real::whole(-1);
-        self.constant = plus(&self.constant, &times(&back, &other.constant));
+        self.constant = minus(&self.constant, &other.constant);
         let parts = other.parts.into_iter();
         self.parts
             .extend(parts.map(|(c, arrow)| (&back * &c, arrow)));
@@ -83,11 +99,6 @@ impl Sum {
             frame::plus(&sum, &frame::times(&near(c), &arrow.at))
         })
     }
-}
-
-/// Nothing.
-fn none() -> Exact {
-    from_fn(|_| Real::zero())
 }
 
 /// A ratio next to a number: where a path begins need be no more exact.
@@ -132,7 +143,8 @@ impl Lowering<'_> {
             let arrow = self.axis_of_joints(&made.plan, axis);
             made.axes.push(arrow);
         }
-        // Axes that the equations of a group tell whole, or that stand: such have no equation of their length.
+        // Axes of which the length is known: they stand, or equations told them before. One that tells another one before it is told itself has an equation
+        // of its length, as otherwise two could tell each other, and be of any length.
         let mut is_told: Vec<bool> = made.plan.axes.iter().map(|a| a.stands.is_some()).collect();
         for group in made.plan.groups.iter().filter(|g| g.stands.is_some()) {
             group
@@ -143,12 +155,6 @@ impl Lowering<'_> {
         for group in 0..made.plan.groups.len() {
             let frame = self.frame_of_group(&made, group, &mut is_told)?;
             made.groups.push(frame);
-        }
-        for (axis, is_told) in is_told.into_iter().enumerate() {
-            if !is_told {
-                self.begin(made.plan.axes[axis].joint);
-                self.has_length_one(&made.axes[axis].clone());
-            }
         }
         for member in 0..made.plan.members.len() {
             let origin = self.origin_of_body(&made.plan, member);
@@ -165,14 +171,9 @@ impl Lowering<'_> {
         Ok(made)
     }
 
-    /// An unknown for each coordinate of a vector. No reversal of an axis changes it: bodies with joints are where they are, and not mirrored.
-    fn components(&mut self, name: &str, power: i32, at: Exact) -> [Entry; 3] {
-        let mut entries = [Entry::Zero; 3];
-        let axes = ["x", "y", "z"].into_iter().zip(at).take(self.dimension());
-        for ((axis, at), entry) in axes.zip(&mut entries) {
-            *entry = self.unknown(format!("{name}, {axis}"), Role::Free, power, [false; 3], at);
-        }
-        entries
+    /// A place or direction of a body: unknowns. No reversal of an axis changes them: bodies with joints are where they are, and not mirrored.
+    fn of_body(&mut self, name: &str, power: i32, at: Exact) -> [Entry; 3] {
+        self.components(name, power, at, |_| [false; 3])
     }
 
     /// A vector that stands.
@@ -186,29 +187,15 @@ impl Lowering<'_> {
                 value(self.coefficient(&name, 0, Parity::Even, vec![v[k].clone()]))
             }
         });
-        Arrow {
-            forms,
-            at: v.each_ref().map(near),
-            power: 0,
-            axial: false,
-            name: name.to_owned(),
-            known: Some(vec![Real::whole(1)]),
-        }
+        unit_vector(name, forms, v.each_ref().map(near))
     }
 
     /// A unit vector that is an unknown, with where it is in the sketch.
     fn moving(&mut self, name: &str, at: Exact) -> Arrow {
         let at = at.each_ref().map(near);
         let seen = at.clone().map(Real::from);
-        let entries = self.components(name, 0, seen);
-        Arrow {
-            forms: entries.each(value),
-            at,
-            power: 0,
-            axial: false,
-            name: name.to_owned(),
-            known: Some(vec![Real::whole(1)]),
-        }
+        let entries = self.of_body(name, 0, seen);
+        unit_vector(name, entries.each(value), at)
     }
 
     fn axis_of_joints(&mut self, plan: &Assembly, axis: usize) -> Arrow {
@@ -226,34 +213,20 @@ impl Lowering<'_> {
                 Some((g, direction))
             })
             .expect("an axis is one of a group");
-        let at = out_of(&self.drawn(plan, group), direction);
+        let at = out_of(&drawn(self.problem, plan.groups[group].body), direction);
         self.moving(&name, at)
-    }
-
-    /// The axes of a group in the sketch.
-    fn drawn(&self, plan: &Assembly, group: usize) -> Turned {
-        let body = plan.groups[group].body;
-        let Shape::Body {
-            place: Some(pose), ..
-        } = &self.problem.objects[body].shape
-        else {
-            unreachable!("a body with joints")
-        };
-        axes(pose).expect("checked before")
     }
 
     fn has_length_one(&mut self, of: &Arrow) {
         let name = format!("{} has the length 1", of.name);
         let products = self.dot(1, &of.forms, &of.forms);
-        let start = Real::from(frame::dot(&of.at, &of.at));
-        self.meet(&name, products, &start, Real::whole(1), 0);
+        self.say(&name, products, Real::whole(1), 0);
     }
 
     fn have_product(&mut self, a: &Arrow, b: &Arrow, product: Real) {
         let name = format!("the angle between {} and {}", a.name, b.name);
         let products = self.dot(1, &a.forms, &b.forms);
-        let start = Real::from(frame::dot(&a.at, &b.at));
-        self.say(&name, products, &start, product, 0);
+        self.say(&name, products, product, 0);
     }
 
     /// How a group is turned, with the unknowns and equations that tell it.
@@ -270,7 +243,7 @@ impl Lowering<'_> {
         }
         self.begin(of.body);
         let name = self.problem.objects[of.body].name.clone();
-        let drawn = self.drawn(plan, group);
+        let drawn = drawn(self.problem, of.body);
         if self.dimension() == 2 {
             let along = self.moving(&format!("the x axis of {name}"), drawn[0].clone());
             self.has_length_one(&along);
@@ -313,6 +286,12 @@ impl Lowering<'_> {
                 ([direction.clone(), across], [axis, beside], zero, 1)
             }
         };
+        for (axis, _) in axes.iter().take(by) {
+            if !std::mem::replace(&mut is_told[*axis], true) {
+                self.begin(plan.axes[*axis].joint);
+                self.has_length_one(&made.axes[*axis].clone());
+            }
+        }
         let frame = Frame::Space {
             along: Box::new(along),
             basis,
@@ -321,10 +300,7 @@ impl Lowering<'_> {
         for (axis, direction) in axes.iter().skip(by) {
             let arrow = made.axes[*axis].clone();
             let name = format!("{} in {name}", arrow.name);
-            let told = Sum {
-                constant: none(),
-                parts: vec![(Real::whole(1), arrow)],
-            };
+            let told = Sum::one(arrow);
             self.begin(plan.axes[*axis].joint);
             let by = self.vector(&frame, direction);
             self.vanish_all(&name, told.minus(by), 0);
@@ -339,10 +315,7 @@ impl Lowering<'_> {
             for (joint, axis, direction) in &of.again {
                 self.begin(*joint);
                 let name = format!("{} again", made.axes[*axis].name);
-                let told = Sum {
-                    constant: none(),
-                    parts: vec![(Real::whole(1), made.axes[*axis].clone())],
-                };
+                let told = Sum::one(made.axes[*axis].clone());
                 let by = self.vector(&made.groups[group], direction);
                 self.vanish_all(&name, told.minus(by), 0);
             }
@@ -356,10 +329,7 @@ impl Lowering<'_> {
         for (body, vector) in &made.plan.standing {
             self.begin(*body);
             let name = format!("{} stands", self.problem.objects[*body].name);
-            let sum = Sum {
-                constant: vector.clone(),
-                parts: Vec::new(),
-            };
+            let sum = Sum::constant(vector.clone());
             self.vanish_all(&name, sum, 0);
         }
     }
@@ -367,10 +337,7 @@ impl Lowering<'_> {
     /// A vector of a group, by its coordinates in it.
     fn vector(&mut self, frame: &Frame, v: &Exact) -> Sum {
         match frame {
-            Frame::Stands(turned) => Sum {
-                constant: out_of(turned, v),
-                parts: Vec::new(),
-            },
+            Frame::Stands(turned) => Sum::constant(out_of(turned, v)),
             Frame::Plane(along) => {
                 let [x, y, _] = along.forms;
                 let turned = Arrow {
@@ -379,10 +346,7 @@ impl Lowering<'_> {
                     ..along.clone()
                 };
                 let parts = vec![(v[0].clone(), along.clone()), (v[1].clone(), turned)];
-                Sum {
-                    constant: none(),
-                    parts: without_zeros(parts),
-                }
+                Sum::of(parts)
             }
             Frame::Space {
                 along,
@@ -396,10 +360,7 @@ impl Lowering<'_> {
                     let name = format!("{} × {}", e.name, f.name);
                     parts.push((on_both, self.cross(e, f, name)));
                 }
-                Sum {
-                    constant: none(),
-                    parts: without_zeros(parts),
-                }
+                Sum::of(parts)
             }
         }
     }
@@ -416,10 +377,7 @@ impl Lowering<'_> {
         }
         let at = sum.at().map(Real::from);
         let arrow = self.moving(&name, at);
-        let told = Sum {
-            constant: none(),
-            parts: vec![(Real::whole(1), arrow.clone())],
-        };
+        let told = Sum::one(arrow.clone());
         self.vanish_all(&name, told.minus(sum), 0);
         arrow
     }
@@ -427,18 +385,13 @@ impl Lowering<'_> {
     fn origin_of_body(&mut self, plan: &Assembly, member: usize) -> Origin {
         let body = plan.members[member].body;
         self.begin(body);
-        let Shape::Body {
-            place: Some(pose), ..
-        } = &self.problem.objects[body].shape
-        else {
-            unreachable!("a body with joints")
-        };
-        let at = exact(&pose.at);
+        let place = self.problem.objects[body].place();
+        let at = exact(&place.expect("a body with joints").at);
         if self.problem.standing_bodies().contains(&body) {
             return Origin::Stands(at);
         }
         let name = format!("the origin of {}", self.problem.objects[body].name);
-        let entries = self.components(&name, 1, at.clone());
+        let entries = self.of_body(&name, 1, at.clone());
         Origin::Moves(Place {
             entries,
             at: at.each_ref().map(near),
@@ -452,14 +405,8 @@ impl Lowering<'_> {
         let member = &made.plan.members[index];
         let from = self.vector(&made.groups[member.group], &out_of(&member.turned, local));
         let origin = match &made.origins[index] {
-            Origin::Stands(at) => Sum {
-                constant: at.clone(),
-                parts: Vec::new(),
-            },
-            Origin::Moves(place) => Sum {
-                constant: none(),
-                parts: vec![(Real::whole(1), self.to(place))],
-            },
+            Origin::Stands(at) => Sum::constant(at.clone()),
+            Origin::Moves(place) => Sum::one(self.to(place)),
         };
         origin.plus(from)
     }
@@ -479,12 +426,9 @@ impl Lowering<'_> {
     /// A vector as three numbers that equations can multiply.
     fn as_place(&mut self, name: &str, sum: Sum) -> Place {
         let at = sum.at();
-        let entries = self.components(name, 1, at.clone().map(Real::from));
+        let entries = self.of_body(name, 1, at.clone().map(Real::from));
         let place = Place { entries, at };
-        let told = Sum {
-            constant: none(),
-            parts: vec![(Real::whole(1), self.to(&place))],
-        };
+        let told = Sum::one(self.to(&place));
         self.vanish_all(name, told.minus(sum), 1);
         place
     }
@@ -507,85 +451,62 @@ impl Lowering<'_> {
         let apart = second.minus(first);
         if matches!(sort, JointSort::Planar | JointSort::OnPlane) {
             let (axis, is_opposite) = ends[0].expect("a plane has a normal");
-            let travel = self.travel(
-                &name,
-                joint,
-                &apart,
-                &made.axes[axis].at.clone(),
-                is_opposite,
-            );
-            return self.is_in_plane(made, &name, (joint, axis, is_opposite), apart, travel);
+            self.is_in_plane(made, &name, (joint, axis, is_opposite), apart);
+            return Ok(());
         }
-        let apart = match sort.travels() {
-            true => {
-                let (along, sign) = match ends[0] {
-                    Some((axis, is_opposite)) => {
-                        (made.axes[axis].clone(), if is_opposite { -1 } else { 1 })
-                    }
-                    // In the plane the travel is along the x axis of the joint's frame.
-                    None => {
-                        let x = axes(&frames[0])?[0].clone();
-                        (self.direction_of(made, bodies[0], &x), 1)
-                    }
-                };
-                let at =
-                    frame::dot(&apart.at(), &along.at) * BigRational::from_integer(sign.into());
-                let what = format!("the travel of {name}");
-                let entry = self.scalar(what, 1, Parity::Even, at.clone().into());
-                made.travels.push((joint, entry, at.clone()));
-                self.vanish_with_travel(&name, apart, (entry, at), (&along, sign));
-                return Ok(());
+        if !sort.travels() {
+            self.vanish_all(&name, apart, 1);
+            return Ok(());
+        }
+        let (along, sign) = match ends[0] {
+            Some((axis, is_opposite)) => {
+                (made.axes[axis].clone(), if is_opposite { -1 } else { 1 })
             }
-            false => apart,
+            // In the plane the travel is along the x axis of the joint's frame.
+            None => {
+                let x = axes(&frames[0])?[0].clone();
+                (self.direction_of(made, bodies[0], &x), 1)
+            }
         };
-        self.vanish_all(&name, apart, 1);
+        let travel = self.travel(made, joint, &apart, (&along.at, sign));
+        self.vanish_with_travel(&name, apart, travel, (&along, sign));
         Ok(())
     }
 
-    /// The travel of a joint in a plane, where a constraint gives it.
+    /// How far a vector goes along a unit vector in the sketch, or along the opposite one, as the travel of a joint: an unknown.
     fn travel(
         &mut self,
-        name: &str,
+        made: &mut Assembled,
         joint: usize,
         apart: &Sum,
-        along: &Vector,
-        is_opposite: bool,
-    ) -> Option<(Entry, BigRational)> {
-        let is_given = |c: &Constraint| c.kind == "travels" && c.items == [Item::Object(joint)];
-        self.problem.constraints.iter().find(|c| is_given(c))?;
-        let at = frame::dot(&apart.at(), along);
-        let at = if is_opposite { -at } else { at };
-        let entry = self.scalar(
-            format!("the travel of {name}"),
-            1,
-            Parity::Even,
-            at.clone().into(),
-        );
-        Some((entry, at))
+        (along, sign): (&Vector, i32),
+    ) -> Entry {
+        let at = dot(&apart.at(), along) * BigRational::from_integer(sign.into());
+        let name = format!("the travel of {}", self.problem.objects[joint].name);
+        let entry = self.scalar(name, 1, Parity::Even, at.clone().into());
+        made.travels.push((joint, entry, at));
+        entry
     }
 
-    /// Says that a place is in a plane through another one, or away from it by a travel.
+    /// Says that a place is in a plane through another one, or away from it by a travel where a constraint gives that.
     fn is_in_plane(
         &mut self,
         made: &mut Assembled,
         name: &str,
         (joint, axis, is_opposite): (usize, usize, bool),
         apart: Sum,
-        travel: Option<(Entry, BigRational)>,
-    ) -> Result<(), Fault> {
-        let across = self.as_place(&format!("across {name}"), apart);
-        let normal = made.axes[axis].clone();
+    ) {
         let sign = if is_opposite { -1 } else { 1 };
-        let forms = across.entries.each(value);
-        let mut products = self.dot(sign, &forms, &normal.forms);
-        let mut start = frame::dot(&across.at, &normal.at) * BigRational::from_integer(sign.into());
-        if let Some((entry, at)) = travel {
-            products.push(Product::new(-1, value(entry), Form::One));
-            start -= &at;
-            made.travels.push((joint, entry, at));
-        }
-        self.vanish(name, products, start.into(), 1);
-        Ok(())
+        let normal = made.axes[axis].clone();
+        let is_given = |c: &Constraint| c.kind == "travels" && c.items == [Item::Object(joint)];
+        let travel = match self.problem.constraints.iter().any(is_given) {
+            true => Some(self.travel(made, joint, &apart, (&normal.at, sign))),
+            false => None,
+        };
+        let across = self.as_place(&format!("across {name}"), apart);
+        let mut products = self.dot(sign, &across.entries.each(value), &normal.forms);
+        products.extend(travel.map(|travel| Product::new(-1, value(travel), Form::One)));
+        self.say(name, products, Real::zero(), 1);
     }
 
     /// The travel of a joint, and what it is in the sketch.
@@ -622,8 +543,8 @@ impl Lowering<'_> {
         let x = self.direction_of(&made, bodies[0], &frames[0][0]);
         let y = self.direction_of(&made, bodies[0], &frames[0][1]);
         let other = self.direction_of(&made, bodies[1], &frames[1][0]);
-        let now = [&x, &y].map(|along| frame::dot(&along.at, &other.at));
         let products = [&x, &y].map(|along| self.dot(1, &along.forms, &other.forms));
+        let now = products.each_ref().map(|products| self.at_sketch(products));
         self.turn_by(name, products, (now, &Real::whole(1), 0), degrees)
     }
 
@@ -637,10 +558,7 @@ impl Lowering<'_> {
             self.begin(body);
             let name = format!("{}: {}", self.problem.objects[body].name, self.name(point));
             let place = self.place(point);
-            let there = Sum {
-                constant: none(),
-                parts: vec![(Real::whole(1), self.to(&place))],
-            };
+            let there = Sum::one(self.to(&place));
             let by = self.place_of(made, body, &exact(local));
             self.vanish_all(&name, there.minus(by), 1);
         }
@@ -689,8 +607,7 @@ impl Lowering<'_> {
     /// Says that a vector is zero.
     fn vanish_all(&mut self, name: &str, sum: Sum, power: i32) {
         let products = self.products(name, &sum, power);
-        let start = sum.at();
-        self.vanish_each(name, products, (&start, &sum.constant), power);
+        self.vanish_each(name, products, &sum.constant, power);
     }
 
     /// Says that a vector is a travel along a unit vector, or along the opposite one.
@@ -698,16 +615,14 @@ impl Lowering<'_> {
         &mut self,
         name: &str,
         sum: Sum,
-        (entry, at): (Entry, BigRational),
+        travel: Entry,
         (along, sign): (&Arrow, i32),
     ) {
         let mut products = self.products(name, &sum, 1);
         for (products, &form) in products.iter_mut().zip(&along.forms) {
-            products.push(Product::new(-sign, value(entry), form));
+            products.push(Product::new(-sign, value(travel), form));
         }
-        let travelled = frame::times(&(at * BigRational::from_integer(sign.into())), &along.at);
-        let start = frame::minus(&sum.at(), &travelled);
-        self.vanish_each(name, products, (&start, &sum.constant), 1);
+        self.vanish_each(name, products, &sum.constant, 1);
     }
 
     /// For each axis the products of a vector but for its constant.
@@ -739,33 +654,28 @@ impl Lowering<'_> {
         products
     }
 
-    /// Says that a vector is zero, of which the products are all but the constant; `start`: where it is in the sketch.
+    /// Says that a vector is zero, of which the products are all but the constant.
     fn vanish_each(
         &mut self,
         name: &str,
         products: Vec<Vec<Product>>,
-        (start, constant): (&Vector, &Exact),
+        constant: &Exact,
         power: i32,
     ) {
-        for (k, products) in products.into_iter().enumerate() {
-            let start = Real::from(&start[k] - near(&constant[k]));
-            self.say(name, products, &start, -&constant[k], power);
+        for (products, constant) in products.into_iter().zip(constant) {
+            self.say(name, products, -constant, power);
         }
     }
 
-    /// The equation Σ products = `target`. Of numbers alone, where it does not hold by itself, it says of their difference, which has an equation of its own, that
-    /// it is zero.
-    fn say(&mut self, name: &str, products: Vec<Product>, start: &Real, target: Real, power: i32) {
-        if !products
-            .iter()
-            .all(|p| is_constant(p.left) && is_constant(p.right))
-        {
-            return self.meet(name, products, start, target, power);
+    /// The equation Σ products = `target`, led there from what it is in the sketch. Of numbers alone, where it does not hold by itself, it says of their
+    /// difference, which has an equation of its own, that it is zero.
+    fn say(&mut self, name: &str, products: Vec<Product>, target: Real, power: i32) {
+        let start = self.at_sketch(&products);
+        let mut factors = products.iter().flat_map(|p| [p.left, p.right]);
+        if factors.any(|form| form != Form::One && form != value(Entry::Zero)) {
+            return self.meet(name, products, &start, target, power);
         }
-        let number = products.iter().fold(-&target, |sum, p| {
-            let both = [p.left, p.right].iter().all(|form| *form == Form::One);
-            &sum + &Real::whole(i64::from(p.factor) * i64::from(both))
-        });
+        let number = &start - &target;
         if !number.is_zero() {
             let entry = self.coefficient(name, power, Parity::Even, vec![number.clone()]);
             let products = vec![Product::new(1, value(entry), Form::One)];
@@ -774,18 +684,19 @@ impl Lowering<'_> {
     }
 }
 
+fn unit_vector(name: &str, forms: [Form; 3], at: Vector) -> Arrow {
+    Arrow {
+        forms,
+        at,
+        power: 0,
+        axial: false,
+        name: name.to_owned(),
+        known: Some(vec![Real::whole(1)]),
+    }
+}
+
 /// Whether two unit vectors are nearer to a right angle than to being parallel: then a frame is well told along both.
 fn are_apart(a: &Exact, b: &Exact) -> bool {
     let product = dot(a, b).enclose().mag();
     product * product <= 0.5
-}
-
-/// Whether a factor is 0 or 1.
-fn is_constant(form: Form) -> bool {
-    form == Form::One || form == value(Entry::Zero)
-}
-
-/// The vectors that are not taken zero times.
-fn without_zeros(parts: Vec<(Real, Arrow)>) -> Vec<(Real, Arrow)> {
-    parts.into_iter().filter(|(c, _)| !c.is_zero()).collect()
 }

@@ -239,11 +239,24 @@ impl<'a> Lowering<'a> {
         axial: bool,
         at: [Real; 3],
     ) -> [Entry; 3] {
+        let d = self.dimension();
+        self.components(name, power, at, |axis| {
+            array(|k| k < d && (k == axis) != axial)
+        })
+    }
+
+    /// The same, with for each of them the axes whose reversal changes its sign.
+    fn components(
+        &mut self,
+        name: &str,
+        power: i32,
+        at: [Real; 3],
+        flips: impl Fn(usize) -> [bool; 3],
+    ) -> [Entry; 3] {
         let mut entries = [Entry::Zero; 3];
         for (axis, at) in at.into_iter().enumerate().take(self.dimension()) {
-            let flips = array(|k| k < self.dimension() && (k == axis) != axial);
             let name = format!("{name}, {}", ["x", "y", "z"][axis]);
-            entries[axis] = self.unknown(name, Role::Free, power, flips, at);
+            entries[axis] = self.unknown(name, Role::Free, power, flips(axis), at);
         }
         entries
     }
@@ -373,6 +386,23 @@ impl<'a> Lowering<'a> {
             vec![start, back]
         };
         self.push(name.to_owned(), products, right, power, true);
+    }
+
+    /// What Σ products is in the sketch.
+    pub(super) fn at_sketch(&self, products: &[Product]) -> Real {
+        let entry = |entry: Entry| match entry {
+            Entry::Zero => Real::zero(),
+            Entry::Unknown(unknown) => self.values[unknown].clone(),
+            Entry::Coordinate { point, axis } => self.frame.coordinate(&self.place(point).at, axis),
+        };
+        let form = |form: Form| match form {
+            Form::One => Real::whole(1),
+            Form::Difference(a, b) => &entry(a) - &entry(b),
+        };
+        products.iter().fold(Real::zero(), |sum, p| {
+            let product = &form(p.left) * &form(p.right);
+            &sum + &(&Real::whole(p.factor.into()) * &product)
+        })
     }
 
     /// A number's way from what it is in the sketch to what it is wanted to be; where the path begins at a figure

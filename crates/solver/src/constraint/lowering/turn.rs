@@ -5,7 +5,6 @@ use super::super::polynomial::Polynomial;
 use super::super::quadratic::{Product, Role, value};
 use super::{Arrow, Fault, Lowering, Parity, Start};
 use crate::interval::Real;
-use crate::places::Each as _;
 use num_rational::BigRational;
 use num_traits::{FromPrimitive, Signed, ToPrimitive};
 
@@ -31,7 +30,7 @@ impl Lowering<'_> {
     ) -> Result<(), Fault> {
         let power = u.power + v.power;
         let sizes = &length(&u.at) * &length(&v.at);
-        let now = [dot(&u.at, &v.at), cross_in_plane(&u.at, &v.at)];
+        let now = [dot(&u.at, &v.at), cross_in_plane(&u.at, &v.at)].map(Real::from);
         let dot = self.dot(1, &u.forms, &v.forms);
         let cross = self.cross_in_plane(1, &u.forms, &v.forms);
         self.turn_by(name, [dot, cross], (now, &sizes, power), degrees)
@@ -43,7 +42,7 @@ impl Lowering<'_> {
         &mut self,
         name: &str,
         products: [Vec<Product>; 2],
-        (now, sizes, power): ([BigRational; 2], &Real, i32),
+        (now, sizes, power): ([Real; 2], &Real, i32),
         degrees: &BigRational,
     ) -> Result<(), Fault> {
         let [cosine, sine] = self.way_round(now, sizes, degrees)?;
@@ -63,7 +62,7 @@ impl Lowering<'_> {
     /// `e^iθ (1 + (e^iΔ/4 − 1) t)⁴`.
     fn way_round(
         &mut self,
-        now: [BigRational; 2],
+        now: [Real; 2],
         sizes: &Real,
         degrees: &BigRational,
     ) -> Result<[Polynomial; 2], Fault> {
@@ -112,7 +111,7 @@ impl Lowering<'_> {
             }
             Some(before) => way(&before, STEPS),
             None => {
-                let [x, y] = now.each_ref().each(|x| x.to_f64().unwrap_or(0.0));
+                let [x, y] = now.each_ref().map(|x| x.enclose().mid());
                 let drawn = y.atan2(x).to_degrees();
                 let wanted = degrees.to_f64().unwrap_or(0.0);
                 let turn = (wanted - drawn + 180.0).rem_euclid(360.0) - 180.0;
@@ -124,7 +123,7 @@ impl Lowering<'_> {
                 // As many whole turns away as the drawing is near; whole degrees will do.
                 let from = number((wanted - turn).round());
                 let mut points = way(&from, steps);
-                points[0] = now.map(|x| &Real::from(x) / sizes);
+                points[0] = now.map(|x| &x / sizes);
                 points
             }
         };
