@@ -231,6 +231,28 @@ fn a_robot_in_urdf_is_read() {
     );
 }
 
+/// Axes that are parallel but for the fortieth digit are no reason to fail.
+#[test]
+fn nearly_parallel_axes_are_survived() {
+    let directory = tempfile::tempdir().unwrap();
+    let file = directory.path().join("near.toml");
+    let near = format!("[1, 1, 1e-{}]", 40);
+    let text = format!(
+        "dimension = 3\n[bodies]\ng = {{}}\na = {{}}\nb = {{}}\nc = {{}}\n[joints]\n\
+         A = {{ spherical = [\"g\", \"a\"] }}\n\
+         B = {{ revolute = [\"a\", \"b\"], z = [[1, 1, 0], [1, 1, 0]] }}\n\
+         C = {{ revolute = [\"a\", \"c\"], at = [[1, 0, 0], [0, 0, 0]], z = [{near}, {near}] }}\n\
+         D = {{ revolute = [\"b\", \"c\"], at = [[0, 1, 0], [0, 1, 0]], z = [{near}, [1, 1, 0]] }}\n"
+    );
+    fs::write(&file, text).unwrap();
+    for verb in ["check", "solve", "all"] {
+        let (code, said) =
+            run(&[verb, file.to_str().unwrap(), "--time", "2"]
+                [..if verb == "check" { 2 } else { 4 }]);
+        assert!(code.is_some_and(|code| code != 101), "{said}");
+    }
+}
+
 /// Paths and sets of figures with joints leave certificates as all others do.
 #[test]
 fn certificates_of_joints_are_verified() {

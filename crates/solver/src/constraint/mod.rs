@@ -65,11 +65,12 @@ pub use supposed::{equations_with_roots, supposed_lengths};
 use crate::interval::Interval;
 use crate::statement::Problem;
 pub(crate) use arguments::{Arguments, Flat, LineName, Sort, Thing};
+pub(crate) use frame::vector;
 use kind::Given;
 pub(crate) use lowering::{Fault, Lowered, Record};
 use lowering::{Lowering, Start};
 use num_traits::Zero;
-pub(crate) use objects::own_number;
+pub(crate) use objects::{base_of, own_number};
 
 /// The kind that has this key in problem files.
 pub fn kind(key: &str) -> Option<&'static dyn Kind> {

@@ -419,7 +419,7 @@ pub(super) fn turned(form: Form) -> Form {
 
 /// Indices of the two (in the plane) or three points of a body that are far from coinciding and from
 /// being on one line.
-fn base_of(dimension: usize, local: &[Vector], sketch: &[Vector]) -> Result<Vec<usize>, Fault> {
+pub fn base_of(dimension: usize, local: &[Vector], sketch: &[Vector]) -> Result<Vec<usize>, Fault> {
     let square = |v: &Vector| dot(v, v);
     let far = (1..local.len())
         .filter(|&k| sketch[k] != sketch[0])

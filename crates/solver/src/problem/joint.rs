@@ -5,6 +5,7 @@ use super::draft::DraftShape;
 use super::error::Place;
 use super::file::{FileError, Line, Reader};
 use super::{Decimal, DecimalError, JointSort, Object, Point, Pose, ProblemError, Shape};
+use crate::constraint::{base_of, vector};
 use crate::interval::vector::{cross, dot, length, minus, out_of};
 use crate::places::{Each as _, array};
 use crate::statement::nearest;
@@ -287,47 +288,31 @@ fn between(sort: JointSort, value: f64, dimension: usize) -> Motion {
     }
 }
 
-/// Where a body is whose points are drawn.
+/// Where a body is whose points are drawn, if they tell it.
 fn fitted(
     dimension: usize,
     points: &[Point],
     members: &[usize],
     local: &[[Decimal; 3]],
 ) -> Option<Motion> {
-    let of = |v: &[Decimal; 3]| v.each_ref().each(|x| x.to_f64());
-    let pairs: Vec<([f64; 3], [f64; 3])> = members
-        .iter()
-        .zip(local)
-        .map(|(&p, local)| (of(&points[p].sketch), of(local)))
-        .collect();
-    let (first, rest) = pairs.split_first()?;
-    let up = [0.0, 0.0, 1.0];
-    for (k, one) in rest.iter().enumerate() {
-        let along = |side: fn(&([f64; 3], [f64; 3])) -> [f64; 3], of: &([f64; 3], [f64; 3])| {
-            minus(side(of), side(first))
-        };
-        let (drawn, own) = (
-            |p: &([f64; 3], [f64; 3])| p.0,
-            |p: &([f64; 3], [f64; 3])| p.1,
-        );
-        let axes = |side: fn(&([f64; 3], [f64; 3])) -> [f64; 3]| -> Option<[[f64; 3]; 3]> {
-            let x = along(side, one);
-            if dimension == 2 {
-                return (length(x) > 0.0).then(|| frame_of(up, x));
-            }
-            rest[k + 1..].iter().find_map(|two| {
-                let across = cross(x, along(side, two));
-                let size = length(x) * length(along(side, two));
-                // A corner flatter than this tells a plane badly.
-                (length(across) > 0.01 * size).then(|| frame_of(across, x))
-            })
-        };
-        if let (Some(there), Some(here)) = (axes(drawn), axes(own)) {
-            let motion = then(&(first.0, there), &back(&(first.1, here)));
-            return Some(motion);
+    let drawn: Vec<_> = members.iter().map(|&p| vector(&points[p].sketch)).collect();
+    let own: Vec<_> = local.iter().map(vector).collect();
+    let base = base_of(dimension, &own, &drawn).ok()?;
+    let frame = |at: [f64; 3], others: &[[f64; 3]]| match *others {
+        [one] => (at, frame_of([0.0, 0.0, 1.0], minus(one, at))),
+        _ => {
+            let [x, y] = [0, 1].map(|k| minus(others[k], at));
+            (at, frame_of(cross(x, y), x))
         }
-    }
-    None
+    };
+    let of = |v: &[Decimal; 3]| v.each_ref().each(|x| x.to_f64());
+    let there: Vec<_> = base
+        .iter()
+        .map(|&k| of(&points[members[k]].sketch))
+        .collect();
+    let here: Vec<_> = base.iter().map(|&k| of(&local[k])).collect();
+    let [there, here] = [there, here].map(|places| frame(places[0], &places[1..]));
+    Some(then(&there, &back(&here)))
 }
 
 impl Reader<'_> {

@@ -268,10 +268,10 @@ impl Lowering<'_> {
                 self.have_product(&x, &y, zero.clone());
                 (basis, [x, y], zero, 0)
             }
-            // Where both are told their product is all that is left to say, however near they are.
+            // Where both are told their product is all that is left to say.
             [(first, e), (second, f), ..]
                 if stands([*first, *second]) != [true, true]
-                    && (is_told[*second] || are_apart(e, f)) =>
+                    && (are_apart(e, f, 0.75) || is_told[*second] && are_apart(e, f, 1.0)) =>
             {
                 let product = dot(e, f);
                 let arrows = [first, second].map(|&axis| made.axes[axis].clone());
@@ -695,8 +695,7 @@ fn unit_vector(name: &str, forms: [Form; 3], at: Vector) -> Arrow {
     }
 }
 
-/// Whether two unit vectors are nearer to a right angle than to being parallel: then a frame is well told along both.
-fn are_apart(a: &Exact, b: &Exact) -> bool {
-    let product = dot(a, b).enclose().mag();
-    product * product <= 0.5
+/// Whether the product of two unit vectors is certainly less than this: a frame is the better told along both the nearer they are to a right angle.
+fn are_apart(a: &Exact, b: &Exact, than: f64) -> bool {
+    dot(a, b).enclose().mag() < than
 }
