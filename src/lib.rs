@@ -98,10 +98,11 @@
 //! - [`report`]: tables, JSON, pictures, progress
 //! - `cli`: the command line of the program
 //!
-//! [`import`], [`explore`], [`compare`], [`report`] and `cli` are this package's; all others are those of the package
-//! `krawl-solver` in `crates/solver`, and only they are built for speed. Those that have no page here are these packages'
-//! own; where they are public they are so for the program, the tests and `crates/lab`, which has what the papers describe
-//! and krawl does without.
+//! From `decimal` to `linalg` they are those of the package `krawl-kernel` in `crates/kernel`, from `statement` to
+//! [`track`] those of `krawl-tracker` in `crates/tracker`; [`import`], [`explore`], [`compare`], [`report`] and `cli` are
+//! this package's; all others are those of `krawl-solver` in `crates/solver`. Those that have no page here are these
+//! packages' own; where they are public they are so for the program, the tests and `crates/lab`, which has what the
+//! papers describe and krawl does without.
 
 #![warn(missing_docs)]
 
@@ -109,7 +110,7 @@
 #[cfg(feature = "cli")]
 extern crate self as krawl;
 
-// What computes and proves is a package of its own, so that it alone is built for speed.
+// What computes and proves is in packages of its own, so that they alone are built for speed.
 pub use krawl_solver::{
     blocks, certificate, complete, complex, constraint, edit, equations, generate, interval,
     motion, problem, system, tolerance, track,

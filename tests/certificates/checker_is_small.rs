@@ -49,7 +49,12 @@ fn the_checker_uses_only_the_problem_the_intervals_and_the_equations() {
     }
     // And what those use: nothing above them.
     for folder in ["statement", "problem", "constraint", "interval", "system"] {
-        for file in fs::read_dir(format!("crates/solver/src/{folder}")).unwrap() {
+        let package = if folder == "interval" {
+            "kernel"
+        } else {
+            "tracker"
+        };
+        for file in fs::read_dir(format!("crates/{package}/src/{folder}")).unwrap() {
             let path = file.unwrap().path();
             if path.is_file() {
                 let text = fs::read_to_string(&path).unwrap();

@@ -26,7 +26,12 @@ fn spans(text: &str) -> Vec<&str> {
 fn what_the_page_about_the_papers_names_is_there() {
     let text = fs::read_to_string("docs/paper.md").unwrap();
     let mut sources = Vec::new();
-    for folder in ["crates/solver/src", "src"] {
+    for folder in [
+        "crates/kernel/src",
+        "crates/tracker/src",
+        "crates/solver/src",
+        "src",
+    ] {
         walk(Path::new(folder), &mut sources);
     }
     let (mut files, mut names) = (0, 0);
@@ -39,7 +44,7 @@ fn what_the_page_about_the_papers_names_is_there() {
         let is_file =
             span.contains('/') || [".rs", ".toml", ".md"].iter().any(|e| span.ends_with(e));
         if is_file {
-            let exists = ["", "crates/solver/src/", "src/"]
+            let exists = ["", "crates/kernel/src/", "crates/tracker/src/", "crates/solver/src/", "src/"]
                 .iter()
                 .any(|folder| fs::exists(format!("{folder}{span}")).unwrap())
                 // A module beside one that was named in full.

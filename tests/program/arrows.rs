@@ -1,5 +1,5 @@
 //! The modules of the library stand in an order, which the documentation of the crate gives, and each uses only those
-//! before it. Those of both packages, krawl and crates/solver, stand in that one order.
+//! before it. Those of all packages, crates/kernel, crates/tracker, crates/solver and krawl, stand in that one order.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -106,7 +106,14 @@ fn names(rest: &str) -> Vec<&str> {
 fn named(code: &str, depth: usize) -> Vec<String> {
     let up = "super::".repeat(depth);
     let mut all = Vec::new();
-    for root in ["crate::", "krawl::", "krawl_solver::", &up] {
+    for root in [
+        "crate::",
+        "krawl::",
+        "krawl_kernel::",
+        "krawl_tracker::",
+        "krawl_solver::",
+        &up,
+    ] {
         for (at, _) in code.match_indices(root) {
             let before = &code[..at];
             let is_part = before.ends_with(|c: char| c.is_alphanumeric() || c == '_' || c == ':');
@@ -137,7 +144,12 @@ fn sources(folder: &Path, found: &mut BTreeMap<String, String>) {
 }
 
 /// Where the packages have their modules.
-const PACKAGES: [&str; 2] = ["crates/solver/src", "src"];
+const PACKAGES: [&str; 4] = [
+    "crates/kernel/src",
+    "crates/tracker/src",
+    "crates/solver/src",
+    "src",
+];
 
 #[test]
 fn modules_use_only_those_before_them() {

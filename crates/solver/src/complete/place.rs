@@ -65,6 +65,7 @@ impl<const S: usize, const M: usize> Quantity<S, M> {
         }
     }
 
+    #[inline]
     fn plus(&self, other: &Self) -> Self {
         match (self, other) {
             (Fixed(x), Fixed(y)) => Fixed(x.plus(1.0, *y)),
@@ -73,6 +74,7 @@ impl<const S: usize, const M: usize> Quantity<S, M> {
         }
     }
 
+    #[inline]
     fn minus(&self, other: &Self) -> Self {
         match (self, other) {
             (Fixed(x), Fixed(y)) => Fixed(x.plus(-1.0, *y)),
@@ -82,6 +84,7 @@ impl<const S: usize, const M: usize> Quantity<S, M> {
         }
     }
 
+    #[inline]
     fn times(&self, other: &Self) -> Self {
         match (self, other) {
             (Fixed(x), Fixed(y)) => Fixed(x.times(*y)),

@@ -1,0 +1,37 @@
+//! The problem: points, a sketch, distances to meet, and how to get there.
+//!
+//! A [`Problem`] is plain data, checked: whatever builds one from a file or from code has made
+//! sure that the system of equations is square and that its parts are neither over- nor
+//! under-constrained. Numbers are [`Decimal`]s, exactly what the file says.
+
+mod bend;
+mod builder;
+mod check;
+mod draft;
+mod error;
+#[doc(hidden)]
+pub mod expression;
+mod file;
+mod formula;
+mod joint;
+mod published;
+mod reference;
+mod vocabulary;
+mod write;
+
+pub use crate::decimal::{Decimal, DecimalError};
+#[doc(hidden)]
+pub use crate::statement::most_along;
+pub use crate::statement::{
+    AXES, Atom, Constraint, DEPENDS, Distance, Formula, HomotopyChoices, Item, JointSort, Object,
+    Point, Pose, Problem, Shape, Target, Terms, Tolerances, free_coordinates,
+};
+#[doc(hidden)]
+pub use crate::statement::{counted, list};
+#[doc(hidden)]
+pub use bend::default_coefficient as default_bend;
+pub use builder::ProblemBuilder;
+pub use check::{Rigidity, rigidity};
+pub use error::{MAX_NAME, MAX_POINTS, Place, ProblemError};
+pub use file::{FileError, FileFault, MAX_FILE_SIZE};
+pub use published::Published;
