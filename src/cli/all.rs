@@ -3,7 +3,7 @@
 use super::check::counted;
 use super::edit::say_if_it_moves;
 use super::input::Asked;
-use super::measured::Measured;
+use super::measured::{Measured, placed};
 use super::output::{self, Beside, Destination};
 use super::pictures::Pictures;
 use super::take::{Candidates, Take, Taken};
@@ -212,7 +212,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         let page = Page::from_result(&complete_to_value(&problem, &result));
         written &= pictures.write(&page.map_err(|error| error.to_string())?);
     }
-    let figures = || result.solutions.iter().map(|solution| &solution.points[..]);
+    let figures = || result.solutions.iter().map(placed);
     if let Some(json) = &json {
         let text = match measures.is_empty() {
             true => complete_to_json(&problem, &result),

@@ -225,11 +225,12 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             arguments.quiet,
         )?,
     };
+    let figure = || std::iter::once((&edited.points[..], &edited.objects[..]));
     let document = || {
         let mut value = edit_to_document(&problem, &edited, &session);
         value["warnings"] = warnings.clone().into();
         if !measures.is_empty() {
-            value["measures"] = measures.to_value(std::iter::once(&edited.points[..]));
+            value["measures"] = measures.to_value(figure());
         }
         value
     };
@@ -265,7 +266,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             Ending::Passes(_) | Ending::Stopped(_) => " of the old figure",
         };
         let mut text = as_turns + &drawn + &table + &account_in_words(&edited.account);
-        text += &measures.to_table(of, std::iter::once(&edited.points[..]));
+        text += &measures.to_table(of, figure());
         for warning in &warnings {
             text += &format!("warning             {warning}\n");
         }

@@ -1,13 +1,19 @@
 //! What is measured of the figures that a verb prints.
 
 use krawl::problem::Problem;
-use krawl::report::Measures;
+use krawl::report::{Measures, Placed};
+use krawl::track::Solution;
+
+/// A solution as it is measured.
+pub(super) fn placed(solution: &Solution) -> Placed<'_> {
+    (&solution.points, &solution.objects)
+}
 
 /// What to measure.
 #[derive(clap::Args)]
 pub(super) struct Measured {
     /// Measure this of every figure, as it is printed, with proof; may be given several times: `A-B`, `angle A B C`, `turn A B C` (with its sense, from
-    /// −180 to 180), `torsion A B C D`, `x A`, `area A B C ...` (of an outline that does not cross itself)
+    /// −180 to 180), `torsion A B C D`, `x A`, `area A B C ...` (of an outline that does not cross itself), `turn J` and `travel J` of a joint, `radius C` of a circle, `value x` of an unknown
     #[arg(long = "measure", value_name = "WHAT")]
     measure: Vec<String>,
 }

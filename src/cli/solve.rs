@@ -1,7 +1,7 @@
 //! `krawl solve`: follows the path of a problem and prints the solutions.
 
 use super::edit::LeftOut;
-use super::measured::Measured;
+use super::measured::{Measured, placed};
 use super::output::{self, Beside, Destination};
 use super::pictures::Pictures;
 use super::take::{Candidates, Take, Taken};
@@ -550,8 +550,8 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
                 (true, None) => 0..0,
                 _ => 0..outcome.solutions.len(),
             };
-            let listed = outcome.solutions[listed].iter();
-            let text = text + &measures.to_table(of, listed.map(|solution| &solution.points[..]));
+            let listed = outcome.solutions[listed].iter().map(placed);
+            let text = text + &measures.to_table(of, listed);
             let hints = hints(problem, &outcome, &input::name(file));
             let whole = arguments.whole_in_words(file);
             written &= output::print(&format!("{gap}{whole}{text}{hints}"));
@@ -572,10 +572,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             written &= output::print(&among_in_words(among));
         }
         if json.is_some() {
-            let figures = outcome
-                .solutions
-                .iter()
-                .map(|solution| &solution.points[..]);
+            let figures = outcome.solutions.iter().map(placed);
             let measured = (!measures.is_empty()).then(|| measures.to_value(figures));
             lines += &(run.to_json_among(among, &alone, measured) + "\n");
         }
@@ -815,8 +812,12 @@ impl Arguments {
                 None if self.first => 0..0,
                 None => 0..figures.count().unwrap_or(u64::MAX).min(MOST_MEASURED),
             };
-            let boxes: Vec<_> = numbers.map(|number| figures.figure(number).0).collect();
-            let boxes = || boxes.iter().map(|points| &points[..]);
+            let boxes: Vec<_> = numbers.map(|number| figures.figure(number)).collect();
+            let boxes = || {
+                boxes
+                    .iter()
+                    .map(|(points, objects)| (&points[..], &objects[..]))
+            };
             text += &measures.to_table("", boxes());
             value["measures"] = measures.to_value(boxes());
         }

@@ -182,7 +182,12 @@ fn drive(arguments: &Arguments, vary: &str, ends: [&str; 2]) -> Result<u8, Strin
         let page = Page::from_result(&sweep_to_value(&problem, index, &sweep));
         written &= pictures.write(&page.map_err(|error| error.to_string())?);
     }
-    let frames = || sweep.frames.iter().map(|frame| &frame.points[..]);
+    let frames = || {
+        sweep
+            .frames
+            .iter()
+            .map(|frame| (&frame.points[..], &frame.objects[..]))
+    };
     if let Some(json) = &json {
         let mut value = sweep_to_value(&problem, index, &sweep);
         if !measures.is_empty() {

@@ -9,6 +9,7 @@ use krawl::edit::{Asked, Edited, Ending, Session, Setting};
 use krawl::interval::Interval;
 use krawl::problem::Decimal;
 use krawl::report::{account_in_words, edit_in_words, frames_to_csv};
+use krawl::system::Located;
 use krawl::track::Control;
 use std::collections::HashSet;
 use std::fs;
@@ -93,7 +94,7 @@ pub(super) fn run(arguments: &Arguments, file: &Path) -> Result<u8, String> {
         Err(code) => return Ok(code),
     };
     let (mut account, mut end, mut written) = (session.account(), None, true);
-    let mut frames: Vec<(Vec<Interval>, Vec<[Interval; 3]>)> = Vec::new();
+    let mut frames: Vec<(Vec<Interval>, (Vec<[Interval; 3]>, Vec<Located>))> = Vec::new();
     for (number, settings) in asked.settings.chunks(columns).enumerate() {
         let row = number + 1;
         let in_row = |error| format!("{}: row {row}: {error}", file.display());
@@ -111,7 +112,7 @@ pub(super) fn run(arguments: &Arguments, file: &Path) -> Result<u8, String> {
         account.join(&edited.account);
         frames.push((
             edited.dimensions.iter().map(|d| d.value).collect(),
-            edited.points,
+            (edited.points, edited.objects),
         ));
         if let Some(folder) = folder {
             let given = &asked.given[number * columns..][..columns];
@@ -126,7 +127,9 @@ pub(super) fn run(arguments: &Arguments, file: &Path) -> Result<u8, String> {
         written &= csv.write(&frames_to_csv(problem, &names, &frames, &measures));
     }
     if !arguments.quiet && csv != Some(Destination::StandardOutput) {
-        let points = frames.iter().map(|(_, points)| &points[..]);
+        let placed = frames
+            .iter()
+            .map(|(_, (points, objects))| (&points[..], &objects[..]));
         let text = asked.in_words(&loaded.problem)
             + &drawn_in_words(problem, &session)
             + &in_words(
@@ -139,7 +142,7 @@ pub(super) fn run(arguments: &Arguments, file: &Path) -> Result<u8, String> {
                 .map_or(String::new(), |(row, edited): &(usize, Edited)| {
                     format!("Row {row}: {}\n", edit_in_words(problem, edited))
                 })
-            + &measures.over(points)
+            + &measures.over(placed)
             + &account_in_words(&account);
         written &= output::print(&text);
     }

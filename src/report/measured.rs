@@ -1,25 +1,123 @@
-//! What is measured of figures: lengths, angles, coordinates and areas that no constraint has to give.
+//! What is measured of figures: lengths, angles, coordinates, areas and numbers of objects that no constraint has to give.
 
 use super::certain_digits;
 use crate::interval::Interval;
-use crate::problem::Problem;
-use crate::system::Quantity;
+use crate::problem::{Problem, Shape};
+use crate::system::{Located, Quantity};
 use serde_json::{Value, json};
 use std::fmt::Write;
+
+/// A figure: enclosures of its points, and where its objects are.
+pub type Placed<'f> = (&'f [[Interval; 3]], &'f [Located]);
 
 /// What is measured of each figure of a problem.
 #[derive(Debug, Clone, Default)]
 pub struct Measures {
-    all: Vec<Quantity>,
+    all: Vec<Measure>,
+}
+
+#[derive(Debug, Clone)]
+enum Measure {
+    /// Of points.
+    Quantity(Quantity),
+    /// A number that an object has: its name as it was given, and the object.
+    Number(String, Part, usize),
+}
+
+/// Which number of an object.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Part {
+    /// By how many degrees a joint is turned.
+    Turn,
+    /// How far a joint has travelled.
+    Travel,
+    /// The radius of a circle, sphere or arc.
+    Radius,
+    /// The value of an unknown number.
+    Value,
+}
+
+impl Part {
+    /// The part that a word names, and what has it.
+    fn named(word: &str) -> Option<(Part, &'static str)> {
+        Some(match word {
+            "turn" => (Part::Turn, "joint that turns about one axis"),
+            "travel" => (Part::Travel, "joint that travels along its axis"),
+            "radius" => (Part::Radius, "circle, sphere or arc"),
+            "value" => (Part::Value, "unknown"),
+            _ => return None,
+        })
+    }
+
+    fn is_of(self, shape: &Shape) -> bool {
+        match (self, shape) {
+            (Part::Turn, Shape::Joint { sort, .. }) => sort.turns(),
+            (Part::Travel, Shape::Joint { sort, .. }) => sort.travels(),
+            (Part::Radius, Shape::Round { .. } | Shape::Arc { .. })
+            | (Part::Value, Shape::Number { .. }) => true,
+            _ => false,
+        }
+    }
+
+    fn of(self, object: &Located) -> Option<Interval> {
+        match (self, object) {
+            (Part::Turn, Located::Joint { turn, .. }) => *turn,
+            (Part::Travel, Located::Joint { travel, .. }) => *travel,
+            (Part::Radius | Part::Value, object) => object.number(),
+            _ => None,
+        }
+    }
+}
+
+impl Measure {
+    fn parse(problem: &Problem, text: &str) -> Result<Self, String> {
+        let words = text.trim().split_once(char::is_whitespace);
+        let named = words.and_then(|(word, name)| Some((Part::named(word)?, name.trim())));
+        let Some(((part, what), name)) = named else {
+            return Quantity::parse(problem, text).map(Measure::Quantity);
+        };
+        let object = problem.objects.iter().position(|o| o.name == name);
+        match object {
+            Some(object) if part.is_of(&problem.objects[object].shape) => {
+                Ok(Measure::Number(text.trim().to_owned(), part, object))
+            }
+            // `turn A B C` is of points.
+            None if part == Part::Turn && name.contains(char::is_whitespace) => {
+                Quantity::parse(problem, text).map(Measure::Quantity)
+            }
+            _ => Err(format!(
+                "--measure \"{}\": there is no {what} `{name}`",
+                text.trim()
+            )),
+        }
+    }
+
+    fn name(&self) -> &str {
+        match self {
+            Measure::Quantity(quantity) => &quantity.name,
+            Measure::Number(name, ..) => name,
+        }
+    }
+
+    fn of(&self, (points, objects): Placed) -> Interval {
+        match self {
+            Measure::Quantity(quantity) => quantity.of(points),
+            // An object that is nowhere told of may have any number.
+            Measure::Number(_, part, object) => {
+                let number = objects.get(*object).and_then(|object| part.of(object));
+                number.unwrap_or(Interval::ENTIRE)
+            }
+        }
+    }
 }
 
 impl Measures {
-    /// From texts such as `A-B` and `angle A B C`.
+    /// From texts such as `A-B`, `angle A B C` and `turn J` of a joint.
     ///
     /// # Errors
     /// Which text is none, and why.
     pub fn parse(problem: &Problem, texts: &[String]) -> Result<Self, String> {
-        let all = texts.iter().map(|text| Quantity::parse(problem, text));
+        let all = texts.iter().map(|text| Measure::parse(problem, text));
         Ok(Measures {
             all: all.collect::<Result<_, _>>()?,
         })
@@ -32,31 +130,28 @@ impl Measures {
 
     /// The names, as they were given.
     pub fn names(&self) -> impl Iterator<Item = &str> {
-        self.all.iter().map(|measure| measure.name.as_str())
+        self.all.iter().map(Measure::name)
     }
 
-    /// Enclosures of all for a figure, which is given by boxes of its points.
-    pub fn of(&self, figure: &[[Interval; 3]]) -> Vec<Interval> {
+    /// Enclosures of all for a figure.
+    pub fn of(&self, figure: Placed) -> Vec<Interval> {
         self.all.iter().map(|measure| measure.of(figure)).collect()
     }
 
     /// For JSON: a list of the measures, each with its name and bounds for each figure.
-    pub fn to_value<'f>(
-        &self,
-        figures: impl Iterator<Item = &'f [[Interval; 3]]> + Clone,
-    ) -> Value {
+    pub fn to_value<'f>(&self, figures: impl Iterator<Item = Placed<'f>> + Clone) -> Value {
         let all = self.all.iter().map(|measure| {
             let values = figures.clone().map(|figure| {
                 let value = measure.of(figure);
                 json!([value.inf(), value.sup()])
             });
-            json!({"name": measure.name, "values": values.collect::<Vec<_>>()})
+            json!({"name": measure.name(), "values": values.collect::<Vec<_>>()})
         });
         all.collect()
     }
 
     /// Between which bounds each is at some figures, a line each.
-    pub fn over<'f>(&self, figures: impl Iterator<Item = &'f [[Interval; 3]]>) -> String {
+    pub fn over<'f>(&self, figures: impl Iterator<Item = Placed<'f>>) -> String {
         let rows: Vec<Vec<Interval>> = figures.map(|figure| self.of(figure)).collect();
         let lines = self.names().enumerate().map(|(k, name)| {
             let least = rows
@@ -80,11 +175,7 @@ impl Measures {
 
     /// A table with a line for each figure, numbered from 1 as solutions are; a figure that is the only one has no number. Empty where nothing is measured.
     /// `of`: what is behind "Measured", where that is not plain.
-    pub fn to_table<'f>(
-        &self,
-        of: &str,
-        figures: impl Iterator<Item = &'f [[Interval; 3]]>,
-    ) -> String {
+    pub fn to_table<'f>(&self, of: &str, figures: impl Iterator<Item = Placed<'f>>) -> String {
         let rows: Vec<Vec<String>> = figures
             .map(|figure| self.of(figure).into_iter().map(certain_digits).collect())
             .collect();
@@ -151,7 +242,7 @@ mod tests {
         let figure: Vec<_> = points
             .map(|p| p.sketch.each_ref().map(|x| point(x.to_f64())))
             .collect();
-        let value = measures.of(&figure)[0];
+        let value = measures.of((&figure, &[]))[0];
         assert!(value.wid() < 1e-11, "{value:?}");
         Ok(value.mid())
     }
@@ -186,6 +277,8 @@ mod tests {
             ("a-a", "write `A-B`"),
             ("angle a a b", "named twice"),
             ("", "write `A-B`"),
+            ("turn q", "no joint that turns about one axis `q`"),
+            ("radius a", "no circle, sphere or arc `a`"),
         ] {
             let error = measured(2, text).unwrap_err();
             assert!(error.contains(why), "{error}");

@@ -51,7 +51,7 @@ pub use figures::{
     first_in_words,
 };
 pub use json::{JSON_VERSION, Run};
-pub use measured::Measures;
+pub use measured::{Measures, Placed};
 pub use motion::{motion_in_words, motion_to_csv, motion_to_table, motion_to_value};
 #[cfg(feature = "cli")]
 pub use progress::ProgressLine;

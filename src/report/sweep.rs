@@ -11,6 +11,7 @@ use crate::edit::{Edited, End, Ending, Moved, Range, Sweep};
 use crate::interval::Interval;
 use crate::places::{Each as _, array};
 use crate::problem::Problem;
+use crate::system::Located;
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
 
@@ -202,7 +203,7 @@ pub fn sweep_to_value(problem: &Problem, index: usize, sweep: &Sweep) -> Value {
 pub fn sweep_to_csv(problem: &Problem, index: usize, sweep: &Sweep, measures: &Measures) -> String {
     let frames = sweep.frames.iter();
     let frames: Vec<_> = frames
-        .map(|frame| ([frame.value], &frame.points[..]))
+        .map(|frame| ([frame.value], (&frame.points[..], &frame.objects[..])))
         .collect();
     frames_to_csv(problem, &[problem.dimension_name(index)], &frames, measures)
 }
@@ -211,7 +212,10 @@ pub fn sweep_to_csv(problem: &Problem, index: usize, sweep: &Sweep, measures: &M
 pub fn frames_to_csv(
     problem: &Problem,
     dimensions: &[String],
-    frames: &[(impl AsRef<[Interval]>, impl AsRef<[[Interval; 3]]>)],
+    frames: &[(
+        impl AsRef<[Interval]>,
+        (impl AsRef<[[Interval; 3]]>, impl AsRef<[Located]>),
+    )],
     measures: &Measures,
 ) -> String {
     let axes = &["x", "y", "z"][..problem.dimension];
@@ -222,10 +226,10 @@ pub fn frames_to_csv(
     let names = names.chain(measures.names().map(str::to_owned));
     let names: Vec<String> = names.map(|name| quoted(&name)).collect();
     let mut out = names.join(",") + "\n";
-    for (values, points) in frames {
+    for (values, (points, objects)) in frames {
         let points = points.as_ref();
         let coordinates = points.iter().flat_map(|p| &p[..problem.dimension]);
-        let measured = measures.of(points);
+        let measured = measures.of((points, objects.as_ref()));
         let all = values.as_ref().iter().chain(coordinates).chain(&measured);
         let all: Vec<String> = all.map(|x| (x.mid() + 0.0).to_string()).collect();
         out += &(all.join(",") + "\n");

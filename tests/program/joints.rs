@@ -72,7 +72,7 @@ fn what_is_wrong_is_said_with_its_place() {
         (
             "[joints]",
             "[places]\nslid = { at = [1, 2] }\n[joints]",
-            "did you mean `slide`",
+            "linkage.toml:17: places: the table of places",
         ),
         (
             "[joints]",
@@ -268,5 +268,78 @@ fn certificates_of_joints_are_verified() {
         assert_eq!(code, Some(0), "{said}");
         let (code, said) = run(&["verify", certificate, file]);
         assert!(code == Some(0) && said.contains("VERIFIED"), "{said}");
+    }
+}
+
+/// What a joint, a circle or an unknown has is measured, and stands in the CSV of a sweep: beside formulas.
+#[test]
+fn numbers_of_objects_are_measured() {
+    let (code, said) = run(&[
+        "all",
+        SLIDER,
+        "--measure",
+        "travel S",
+        "--measure",
+        "turn A",
+    ]);
+    // cos 30° + √(9 − sin² 30°), and −30° − arcsin 1/6.
+    assert_eq!(code, Some(0), "{said}");
+    assert!(
+        said.contains("3.82406529") && said.contains("-39.5940682"),
+        "{said}"
+    );
+    let (code, said) = run(&[
+        "sweep",
+        SLIDER,
+        "--vary",
+        "turns:O",
+        "--from",
+        "30",
+        "--to",
+        "60",
+        "--frames",
+        "2",
+        "--csv",
+        "-",
+        "--measure",
+        "travel S",
+    ]);
+    let last = said.lines().last().and_then(|line| line.rsplit_once(','));
+    let (_, travel) = last.unwrap_or_else(|| panic!("{said}"));
+    let travel: f64 = travel.parse().unwrap();
+    // cos 60° + √(9 − sin² 60°).
+    assert!(
+        code == Some(0) && (travel - 3.372281323269014).abs() < 1e-9,
+        "{said}"
+    );
+    let (_, said) = run(&[
+        "edit",
+        "docs/examples/bracket.toml",
+        "--set",
+        "width=100",
+        "--measure",
+        "radius hole",
+    ]);
+    assert!(said.contains("\n            7.5"), "{said}");
+    let (_, said) = run(&[
+        "edit",
+        "docs/examples/circle-hyperbola.toml",
+        "--set",
+        "a=5",
+        "--measure",
+        "value x",
+    ]);
+    // x² + 1/x² = 5.
+    assert!(said.contains("2.1889010593"), "{said}");
+    for (measure, words) in [
+        ("turn G", "there is no joint that turns about one axis `G`"),
+        (
+            "travel O",
+            "there is no joint that travels along its axis `O`",
+        ),
+        ("value O", "there is no unknown `O`"),
+    ] {
+        let (code, said) = run(&["all", SLIDER, "--measure", measure]);
+        assert!(code == Some(2) && said.contains(words), "{said}");
     }
 }

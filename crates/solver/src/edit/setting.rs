@@ -441,6 +441,9 @@ fn find(problem: &Problem, name: &str) -> Result<usize, SettingError> {
         if all.len() > SHOWN {
             known += &format!(" and {} more", all.len() - SHOWN);
         }
+        if all.is_empty() {
+            known = "none".to_owned();
+        }
         let short = name.chars().take(64).collect();
         match without {
             Some(index) => SettingError::NoNumber {

@@ -295,6 +295,8 @@ pub enum Place {
     Detour,
     /// An object, by index.
     Object(usize),
+    /// Where a body is drawn.
+    Pose,
     /// A constraint that is no distance between points, by index.
     Constraint(usize),
 }

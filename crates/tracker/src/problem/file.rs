@@ -9,7 +9,7 @@ use super::expression;
 use super::{Decimal, DecimalError, Problem, ProblemError, Published};
 use crate::constraint::{EQUATIONS, KINDS};
 use crate::statement::{Tolerances, nearest};
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 use std::fmt;
 use std::io::Read;
 use std::ops::Range;
@@ -271,6 +271,8 @@ pub(super) struct Places {
     constraints: Option<usize>,
     /// Lengths first, then squares.
     pub(super) distances: Vec<(&'static str, Option<usize>)>,
+    /// Bodies, and the lines of `[places]` that say where they are drawn.
+    pub(super) poses: HashMap<String, Line>,
     /// Tables of objects and where each object stands.
     pub(super) objects: Vec<(&'static str, Option<usize>)>,
     /// Kinds of constraints and where each constraint stands.
@@ -1027,6 +1029,13 @@ impl<'a> Reader<'a> {
             }
             Place::Detour => ("homotopy.detour: ", places.detour),
             Place::Whole => ("", places.points_table),
+            Place::Pose => {
+                let line = match &error {
+                    ProblemError::UnknownPoint { name, .. } => places.poses.get(name).copied(),
+                    _ => None,
+                };
+                ("places: ", line.flatten())
+            }
             Place::Name => ("name: ", places.name),
             Place::Dimension => ("dimension: ", places.dimension),
             Place::Point(i) => ("points: ", point(i)),

@@ -163,7 +163,7 @@ impl ProblemBuilder {
                     let bodies = objects.iter().filter(is_body).map(|o| o.name.as_str());
                     return Err(ProblemError::UnknownPoint {
                         objects: true,
-                        place: Place::Whole,
+                        place: Place::Pose,
                         what: "the table of places".to_owned(),
                         name: name.clone(),
                         nearest: nearest(name, bodies),
@@ -320,9 +320,10 @@ impl Reader<'_> {
     pub(super) fn places_of_bodies(
         &self,
         root: &dyn TableLike,
-        dimension: usize,
         mut builder: ProblemBuilder,
+        lines: &mut HashMap<String, Line>,
     ) -> Result<ProblemBuilder, FileError> {
+        let dimension = builder.dimension;
         let Some((line, item)) = self.get(root, "places") else {
             return Ok(builder);
         };
@@ -353,6 +354,7 @@ impl Reader<'_> {
                 None => pose.turn_x_aside(),
             }
             builder = builder.place(name, pose);
+            lines.insert(name.to_owned(), line);
         }
         Ok(builder)
     }

@@ -36,8 +36,7 @@ impl Reader<'_> {
     ) -> Result<(ProblemBuilder, HashSet<String>), FileError> {
         let mut names = HashSet::new();
         let robots = self.robots(root)?;
-        let dimension = builder.dimension;
-        builder = self.places_of_bodies(root, dimension, builder)?;
+        builder = self.places_of_bodies(root, builder, &mut places.poses)?;
         for table in TABLES {
             builder = robots.iter().fold(builder, |builder, robot| match table {
                 "bodies" => {
