@@ -61,7 +61,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     arguments.time.begin();
     let problem = input::load(&arguments.file, arguments.sketch.as_deref())?.problem;
     // What can be measured is known before anything is followed.
-    let measures = arguments.measured.of(&problem)?;
+    let measures = arguments.measured.of_points(&problem)?;
     let json = beside(&arguments.file, arguments.json.as_deref())?;
     let csv = beside(&arguments.file, arguments.csv.as_deref())?;
     let pictures = arguments.pictures.places([&arguments.file])?;

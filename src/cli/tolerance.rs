@@ -65,6 +65,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         Ok((name.trim().to_owned(), deviations(value)?))
     });
     let named = named.collect::<Result<Vec<_>, String>>()?;
+    arguments.measured.of_points(&problem)?;
     let in_file = |error: String| format!("{shown}: {error}");
     let limits = limits(&problem, &named, default.as_ref()).map_err(in_file)?;
     let mut control = interrupt::control();

@@ -71,24 +71,25 @@ impl Part {
 
 impl Measure {
     fn parse(problem: &Problem, text: &str) -> Result<Self, String> {
-        let words = text.trim().split_once(char::is_whitespace);
-        let named = words.and_then(|(word, name)| Some((Part::named(word)?, name.trim())));
-        let Some(((part, what), name)) = named else {
-            return Quantity::parse(problem, text).map(Measure::Quantity);
+        // Names of points may be anything.
+        let why = match Quantity::parse(problem, text) {
+            Ok(quantity) => return Ok(Measure::Quantity(quantity)),
+            Err(why) => why,
         };
-        let object = problem.objects.iter().position(|o| o.name == name);
-        match object {
-            Some(object) if part.is_of(&problem.objects[object].shape) => {
-                Ok(Measure::Number(text.trim().to_owned(), part, object))
-            }
+        let text = text.trim();
+        let named = text.split_once(char::is_whitespace);
+        let Some((part, what, name)) = named.and_then(|(word, name)| {
+            let (part, what) = Part::named(word)?;
+            Some((part, what, name.trim()))
+        }) else {
+            return Err(why);
+        };
+        let mut objects = problem.objects.iter();
+        match objects.position(|o| o.name == name && part.is_of(&o.shape)) {
+            Some(object) => Ok(Measure::Number(text.to_owned(), part, object)),
             // `turn A B C` is of points.
-            None if part == Part::Turn && name.contains(char::is_whitespace) => {
-                Quantity::parse(problem, text).map(Measure::Quantity)
-            }
-            _ => Err(format!(
-                "--measure \"{}\": there is no {what} `{name}`",
-                text.trim()
-            )),
+            None if part == Part::Turn && name.contains(char::is_whitespace) => Err(why),
+            None => Err(format!("--measure \"{text}\": there is no {what} `{name}`")),
         }
     }
 
@@ -120,6 +121,15 @@ impl Measures {
         let all = texts.iter().map(|text| Measure::parse(problem, text));
         Ok(Measures {
             all: all.collect::<Result<_, _>>()?,
+        })
+    }
+
+    /// The first measure that is of no points, as it was given.
+    pub fn of_an_object(&self) -> Option<&str> {
+        let mut all = self.all.iter();
+        all.find_map(|measure| match measure {
+            Measure::Quantity(_) => None,
+            Measure::Number(name, ..) => Some(name.as_str()),
         })
     }
 
@@ -264,6 +274,29 @@ mod tests {
             let found = measured(dimension, text).unwrap();
             assert!((found - value).abs() < 1e-11, "{text}: {found}");
         }
+    }
+
+    /// What is a quantity of points stays one, whatever objects are called; an object is meant by its name and what it has.
+    #[test]
+    fn points_come_before_objects() {
+        let text = "name = \"m\"\ndimension = 2\n[points]\na = [3, 0]\nb = [0, 0]\nc = [0, 4]\n\"radius a\" = [1, 0]\n\
+                    [circles]\nk = { center = \"b\", radius = 2 }\n\"a b c\" = { center = \"a\", radius = 1 }\n\
+                    [constraints]\ndistances = [[\"a\", \"b\", 3]]\n";
+        let problem = Problem::parse_loosely(text, "m.toml");
+        let problem = problem.unwrap_or_else(|error| panic!("{error}"));
+        let is_of_points = |text: &str| match Measure::parse(&problem, text) {
+            Ok(Measure::Quantity(_)) => true,
+            Ok(Measure::Number(..)) => false,
+            Err(error) => panic!("{error}"),
+        };
+        assert!(is_of_points("radius a-b") && is_of_points("turn a b c"));
+        assert!(!is_of_points("radius a b c"));
+        let radius = Measure::parse(&problem, "radius a b c").unwrap();
+        let round = |radius: f64| Located::Round {
+            center: [point(0.0); 3],
+            radius: point(radius),
+        };
+        assert_eq!(radius.of((&[], &[round(2.0), round(1.0)])), point(1.0));
     }
 
     #[test]

@@ -231,7 +231,12 @@ pub fn frames_to_csv(
         let coordinates = points.iter().flat_map(|p| &p[..problem.dimension]);
         let measured = measures.of((points, objects.as_ref()));
         let all = values.as_ref().iter().chain(coordinates).chain(&measured);
-        let all: Vec<String> = all.map(|x| (x.mid() + 0.0).to_string()).collect();
+        // What has no bounds is left empty.
+        let cell = |x: &Interval| match x.wid().is_finite() {
+            true => (x.mid() + 0.0).to_string(),
+            false => String::new(),
+        };
+        let all: Vec<String> = all.map(cell).collect();
         out += &(all.join(",") + "\n");
     }
     out

@@ -72,7 +72,7 @@ fn what_is_wrong_is_said_with_its_place() {
         (
             "[joints]",
             "[places]\nslid = { at = [1, 2] }\n[joints]",
-            "linkage.toml:17: places: the table of places",
+            "linkage.toml:17: the table of places: there is no point or object `slid`; did you mean `slide`?",
         ),
         (
             "[joints]",
@@ -320,7 +320,7 @@ fn numbers_of_objects_are_measured() {
         "--measure",
         "radius hole",
     ]);
-    assert!(said.contains("\n            7.5"), "{said}");
+    assert!(said.lines().any(|line| line.trim() == "7.5"), "{said}");
     let (_, said) = run(&[
         "edit",
         "docs/examples/circle-hyperbola.toml",
@@ -331,6 +331,11 @@ fn numbers_of_objects_are_measured() {
     ]);
     // x² + 1/x² = 5.
     assert!(said.contains("2.1889010593"), "{said}");
+    let (code, said) = run(&["motion", SLIDER, "--free", "turns:O", "--measure", "turn A"]);
+    assert!(
+        code == Some(2) && said.contains("numbers of objects are measured by"),
+        "{said}"
+    );
     for (measure, words) in [
         ("turn G", "there is no joint that turns about one axis `G`"),
         (

@@ -58,6 +58,7 @@ impl Decimal {
     }
 
     /// The same number as that of an expression.
+    #[doc(hidden)]
     pub fn computed_by(self, expression: &str) -> Self {
         Decimal {
             expression: Some(expression.into()),

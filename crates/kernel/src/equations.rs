@@ -198,6 +198,7 @@ macro_rules! ring {
         }
     };
 }
+#[doc(hidden)]
 pub use ring;
 
 /// ½ Σ factor · left · right, the left-hand side of an equation, where entries have these values.

@@ -10,12 +10,11 @@
 #[cfg(test)]
 extern crate self as krawl;
 
-pub use krawl_tracker::{
-    constraint, debug_in_words, equations, generate, interval, problem, system, track,
-};
+pub use krawl_tracker::{constraint, equations, generate, interval, problem, system, track};
 #[doc(hidden)]
 pub use krawl_tracker::{
-    decimal, elimination, hexadecimal, linalg, order, places, plan, random, residues, statement,
+    debug_in_words, decimal, elimination, hexadecimal, linalg, order, places, plan, random,
+    residues, statement,
 };
 
 pub mod blocks;

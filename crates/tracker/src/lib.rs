@@ -9,11 +9,11 @@
 #[cfg(test)]
 extern crate self as krawl;
 
-pub use krawl_kernel::{debug_in_words, equations, interval};
 #[doc(hidden)]
 pub use krawl_kernel::{
-    decimal, elimination, hexadecimal, linalg, order, places, random, residues,
+    debug_in_words, decimal, elimination, hexadecimal, linalg, order, places, random, residues,
 };
+pub use krawl_kernel::{equations, interval};
 
 pub mod constraint;
 pub mod generate;

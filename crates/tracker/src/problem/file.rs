@@ -1034,7 +1034,7 @@ impl<'a> Reader<'a> {
                     ProblemError::UnknownPoint { name, .. } => places.poses.get(name).copied(),
                     _ => None,
                 };
-                ("places: ", line.flatten())
+                ("", line.flatten())
             }
             Place::Name => ("name: ", places.name),
             Place::Dimension => ("dimension: ", places.dimension),

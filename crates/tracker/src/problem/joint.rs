@@ -9,7 +9,7 @@ use crate::constraint::{base_of, vector};
 use crate::interval::vector::{cross, dot, length, minus, out_of};
 use crate::places::{Each as _, array};
 use crate::statement::nearest;
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use toml_edit::{Item, Key, TableLike, Value};
 
 /// How a joint is written.
@@ -109,7 +109,7 @@ fn screw(degrees: f64, travel: f64) -> Motion {
 #[derive(Debug, Clone, Default)]
 pub(super) struct Drawn {
     /// Where bodies are in the sketch, by name.
-    places: HashMap<String, Pose>,
+    places: BTreeMap<String, Pose>,
     /// What joints measure in the sketch, by name: degrees, of prismatic ones a length.
     values: HashMap<String, Decimal>,
 }

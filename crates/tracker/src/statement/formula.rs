@@ -66,6 +66,7 @@ impl Formula {
     }
 
     /// Whether all that it names is there.
+    #[doc(hidden)]
     pub fn is_of(&self, problem: &Problem) -> bool {
         let known =
             |terms: &Terms, before: usize| terms.keys().flatten().all(|&atom| atom < before);

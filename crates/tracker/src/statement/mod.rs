@@ -148,6 +148,7 @@ impl Problem {
     }
 
     /// The name of a dimension that has no label: its points joined by `-`, or its kind and what it is about.
+    #[doc(hidden)]
     pub fn derived_name(&self, index: usize) -> String {
         let Some(c) = index.checked_sub(self.distances.len()) else {
             return self.distance_name(index);

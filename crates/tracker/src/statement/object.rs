@@ -66,6 +66,7 @@ impl Object {
 
 impl Shape {
     /// The direction in the sketch of a line or plane of its own.
+    #[doc(hidden)]
     pub fn own_direction(&self) -> Option<&[Decimal; 3]> {
         match self {
             Shape::FreeLine { direction, .. } => Some(direction),
@@ -191,6 +192,7 @@ pub const AXES: [&str; 3] = ["x-axis", "y-axis", "z-axis"];
 impl Problem {
     /// Lines and planes with directions of their own, by number, that are to stay where they are: the equations hold all components
     /// of such a direction but the greatest, of which they know the square, and zeros of them have both of its signs.
+    #[doc(hidden)]
     pub fn fixed_directions(&self) -> impl Iterator<Item = usize> + '_ {
         let fixed = self.constraints.iter().filter(|c| c.kind == "fixed");
         fixed

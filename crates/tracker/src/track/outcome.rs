@@ -74,7 +74,8 @@ pub struct Solution {
     /// Coordinates of every point in the gauge, in the units of the problem. Certified: boxes
     /// that hold exactly one solution, or where [`Solution::is_degenerate`] that of the path. Float: `[x, x]`.
     pub points: Vec<[Interval; 3]>,
-    /// Where the problem's lines, planes, circles, spheres and arcs are, in their order and in the same coordinates.
+    /// Where the problem's objects are, in the order of [`Problem::objects`](crate::problem::Problem::objects) and in the
+    /// same coordinates; none of problems of distances alone.
     pub objects: Vec<Located>,
     /// With other constraints than distances: the unknowns of the equations beside the points' coordinates, in the order
     /// and the units of [`Homotopy::new`](crate::system::Homotopy::new); of runs along a path, otherwise none.

@@ -131,7 +131,7 @@ fn false_links_are_refused() {
 fn false_links_are_refused_with_mixed_kinds() {
     let mut tally = Tally::default();
     let mut random = Random::new(5);
-    for round in 0..effort(8) {
+    for round in 0..effort(16) {
         let problem = mixed_problem(&mut random, 2 + round % 2);
         if !closes(&problem, Space::Full) {
             continue;

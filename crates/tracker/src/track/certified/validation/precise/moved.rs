@@ -226,7 +226,7 @@ fn check_all(list: impl Iterator<Item = (Problem, Homotopy)>, random: &mut Rando
     let mut seen = Seen::default();
     for (problem, homotopy) in list {
         let given = (&problem, &homotopy);
-        let counts = (effort(2), 2 * CHANGES.len());
+        let counts = (effort(4), 2 * CHANGES.len());
         check_problem(given, counts, random, &mut ratios, &mut seen)
     }
     println!("{seen:?}");
