@@ -13,7 +13,8 @@ pub(super) fn placed(solution: &Solution) -> Placed<'_> {
 #[derive(clap::Args)]
 pub(super) struct Measured {
     /// Measure this of every figure, as it is printed, with proof; may be given several times: `A-B`, `angle A B C`, `turn A B C` (with its sense, from
-    /// −180 to 180), `torsion A B C D`, `x A`, `area A B C ...` (of an outline that does not cross itself), `turn J` and `travel J` of a joint, `radius C` of a circle, `value x` of an unknown (of objects not in `motion` and `tolerance`)
+    /// −180 to 180), `torsion A B C D`, `x A`, `area A B C ...` (of an outline that does not cross itself); of a joint
+    /// `turn J` and `travel J`, of a circle, sphere or arc `radius C`, of an unknown `value x` (these four not in `motion` and `tolerance`)
     #[arg(long = "measure", value_name = "WHAT")]
     measure: Vec<String>,
 }
@@ -39,8 +40,8 @@ impl Measured {
         let measures = self.of(problem)?;
         match measures.of_an_object() {
             Some(name) => Err(format!(
-                "--measure \"{name}\": numbers of objects are measured by solve, all, edit and sweep; here, lengths, angles, coordinates and areas \
-                 of points are"
+                "--measure \"{name}\": numbers of objects are measured by solve, all, edit and sweep; motion and tolerance measure lengths, \
+                 angles, coordinates and areas of points"
             )),
             None => Ok(measures),
         }

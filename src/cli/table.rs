@@ -8,7 +8,7 @@ use super::{BAD_INPUT, CLOSED, interrupt};
 use krawl::edit::{Asked, Edited, Ending, Session, Setting};
 use krawl::interval::Interval;
 use krawl::problem::Decimal;
-use krawl::report::{account_in_words, edit_in_words, frames_to_csv};
+use krawl::report::{Placed, account_in_words, edit_in_words, frames_to_csv};
 use krawl::system::Located;
 use krawl::track::Control;
 use std::collections::HashSet;
@@ -94,7 +94,7 @@ pub(super) fn run(arguments: &Arguments, file: &Path) -> Result<u8, String> {
         Err(code) => return Ok(code),
     };
     let (mut account, mut end, mut written) = (session.account(), None, true);
-    let mut frames: Vec<(Vec<Interval>, (Vec<[Interval; 3]>, Vec<Located>))> = Vec::new();
+    let mut frames: Vec<(Vec<Interval>, Vec<[Interval; 3]>, Vec<Located>)> = Vec::new();
     for (number, settings) in asked.settings.chunks(columns).enumerate() {
         let row = number + 1;
         let in_row = |error| format!("{}: row {row}: {error}", file.display());
@@ -112,7 +112,8 @@ pub(super) fn run(arguments: &Arguments, file: &Path) -> Result<u8, String> {
         account.join(&edited.account);
         frames.push((
             edited.dimensions.iter().map(|d| d.value).collect(),
-            (edited.points, edited.objects),
+            edited.points,
+            edited.objects,
         ));
         if let Some(folder) = folder {
             let given = &asked.given[number * columns..][..columns];
@@ -123,13 +124,14 @@ pub(super) fn run(arguments: &Arguments, file: &Path) -> Result<u8, String> {
         .iter()
         .map(|setting| problem.dimension_name(setting.index))
         .collect();
+    let frames: Vec<(&[Interval], Placed)> = frames
+        .iter()
+        .map(|(values, points, objects)| (&values[..], (&points[..], &objects[..])))
+        .collect();
     if let Some(csv) = &csv {
         written &= csv.write(&frames_to_csv(problem, &names, &frames, &measures));
     }
     if !arguments.quiet && csv != Some(Destination::StandardOutput) {
-        let placed = frames
-            .iter()
-            .map(|(_, (points, objects))| (&points[..], &objects[..]));
         let text = asked.in_words(&loaded.problem)
             + &drawn_in_words(problem, &session)
             + &in_words(
@@ -142,7 +144,7 @@ pub(super) fn run(arguments: &Arguments, file: &Path) -> Result<u8, String> {
                 .map_or(String::new(), |(row, edited): &(usize, Edited)| {
                     format!("Row {row}: {}\n", edit_in_words(problem, edited))
                 })
-            + &measures.over(placed)
+            + &measures.over(frames.iter().map(|&(_, figure)| figure))
             + &account_in_words(&account);
         written &= output::print(&text);
     }

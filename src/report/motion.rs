@@ -187,7 +187,7 @@ pub fn motion_to_value(motion: &Motion) -> Value {
 pub fn motion_to_csv(motion: &Motion, measures: &Measures) -> String {
     let frames = motion.frames.iter();
     let frames: Vec<_> = frames
-        .map(|frame| ([point(frame.at)], (&frame.points[..], [])))
+        .map(|frame| ([point(frame.at)], (&frame.points[..], &[][..])))
         .collect();
     frames_to_csv(&motion.problem, &["way".to_owned()], &frames, measures)
 }

@@ -5,13 +5,12 @@ use super::drawing::{Drawing, names};
 use super::edit::{
     bounds, edit_in_words, edit_to_value, limit_in_words, points_to_value, short, write_moved,
 };
-use super::measured::Measures;
+use super::measured::{Measures, Placed};
 use super::objects::joints_to_value;
 use crate::edit::{Edited, End, Ending, Moved, Range, Sweep};
 use crate::interval::Interval;
 use crate::places::{Each as _, array};
 use crate::problem::Problem;
-use crate::system::Located;
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
 
@@ -212,10 +211,7 @@ pub fn sweep_to_csv(problem: &Problem, index: usize, sweep: &Sweep, measures: &M
 pub fn frames_to_csv(
     problem: &Problem,
     dimensions: &[String],
-    frames: &[(
-        impl AsRef<[Interval]>,
-        (impl AsRef<[[Interval; 3]]>, impl AsRef<[Located]>),
-    )],
+    frames: &[(impl AsRef<[Interval]>, Placed)],
     measures: &Measures,
 ) -> String {
     let axes = &["x", "y", "z"][..problem.dimension];
@@ -226,10 +222,9 @@ pub fn frames_to_csv(
     let names = names.chain(measures.names().map(str::to_owned));
     let names: Vec<String> = names.map(|name| quoted(&name)).collect();
     let mut out = names.join(",") + "\n";
-    for (values, (points, objects)) in frames {
-        let points = points.as_ref();
+    for &(ref values, figure @ (points, _)) in frames {
         let coordinates = points.iter().flat_map(|p| &p[..problem.dimension]);
-        let measured = measures.of((points, objects.as_ref()));
+        let measured = measures.of(figure);
         let all = values.as_ref().iter().chain(coordinates).chain(&measured);
         // What has no bounds is left empty.
         let cell = |x: &Interval| match x.wid().is_finite() {

@@ -78,15 +78,15 @@ fn compare(cases: usize, seed: u64, dimension: usize) -> BTreeMap<&'static str, 
 
 #[test]
 fn edits_are_the_continuation_or_a_limit_in_the_plane() {
-    let counts = compare(75, 1, 2);
-    assert!(counts["reached"] > 30 && counts["limit"] > 15, "{counts:?}");
+    let counts = compare(150, 1, 2);
+    assert!(counts["reached"] > 60 && counts["limit"] > 30, "{counts:?}");
     assert_eq!(counts.len(), 2, "{counts:?}");
 }
 
 #[test]
 fn edits_are_the_continuation_or_a_limit_in_space() {
-    let counts = compare(30, 2, 3);
-    assert!(counts["reached"] > 7 && counts["limit"] > 5, "{counts:?}");
+    let counts = compare(60, 2, 3);
+    assert!(counts["reached"] > 15 && counts["limit"] > 10, "{counts:?}");
     assert_eq!(counts.len(), 2, "{counts:?}");
 }
 

@@ -57,9 +57,7 @@ fn reaches_further() {
             "fold" | "fold-missed" | "peak" => "t = 1",
             _ => "",
         };
-        // The first and the last of them.
-        let first = (family.proved_in_53_bits + 2).max(4);
-        for k in (first..=family.proved).filter(|&k| k == first || k == family.proved) {
+        for k in (family.proved_in_53_bits + 2).max(4)..=family.proved {
             let problem = family.problem(k);
             let plain = solve(&problem, &Options::certified().without_extended());
             assert_ne!(
@@ -91,7 +89,7 @@ fn reaches_further() {
             further += 1;
         }
     }
-    assert!(further >= 30, "{further}");
+    assert!(further > 70, "{further}");
 }
 
 /// The number before the word.

@@ -72,7 +72,12 @@ fn what_is_wrong_is_said_with_its_place() {
         (
             "[joints]",
             "[places]\nslid = { at = [1, 2] }\n[joints]",
-            "linkage.toml:17: the table of places: there is no point or object `slid`; did you mean `slide`?",
+            "linkage.toml:17: the table of places: there is no body `slid`; did you mean `slide`?",
+        ),
+        (
+            "[joints]",
+            "[places]\nG = { at = [1, 2] }\n[joints]",
+            "linkage.toml:17: the table of places: there is no body `G`",
         ),
         (
             "[joints]",

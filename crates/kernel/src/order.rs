@@ -9,7 +9,6 @@ pub trait InOrder<T> {
     fn order_by(&mut self, order: impl Fn(&T, &T) -> Ordering);
 
     /// Sorts by a key; what is equal keeps its order.
-    #[inline]
     fn order_by_key<K: Ord>(&mut self, key: impl Fn(&T) -> K) {
         self.order_by(|a, b| key(a).cmp(&key(b)));
     }

@@ -48,36 +48,32 @@ mod tests;
 mod twins;
 mod zeros;
 
+// What krawl's other packages have of the inside.
+#[doc(hidden)]
+pub use self::{
+    arguments::{Arguments, Flat, LineName, Sort, Thing},
+    frame::vector,
+    kinds::is_opposite_nearer,
+    lowering::{Fault, Lowered, MOST_TURN, Record},
+    objects::{base_of, own_number},
+    structure::check_structure,
+};
 pub use heights::{Divided, Origin, divide, odd_ones};
 pub use kind::{Fixes, Kind, Measure};
-#[doc(hidden)]
-pub use kinds::is_opposite_nearer;
 pub use kinds::{EQUATIONS, KINDS};
-#[doc(hidden)]
-pub use lowering::MOST_TURN;
 pub use lowering::Spare;
 pub use quadratic::{
     Entry, Equation, Form, MAX_DEGREE, Nonzero, Posed, Product, Role, Tail, Unknown, coordinate,
     difference, value,
 };
-#[doc(hidden)]
-pub use structure::check_structure;
 pub use structure::{size, size_in_edits};
 pub use supposed::{equations_with_roots, supposed_lengths};
 
 use crate::interval::Interval;
 use crate::statement::Problem;
-#[doc(hidden)]
-pub use arguments::{Arguments, Flat, LineName, Sort, Thing};
-#[doc(hidden)]
-pub use frame::vector;
 use kind::Given;
-#[doc(hidden)]
-pub use lowering::{Fault, Lowered, Record};
 use lowering::{Lowering, Start};
 use num_traits::Zero;
-#[doc(hidden)]
-pub use objects::{base_of, own_number};
 
 /// The kind that has this key in problem files.
 pub fn kind(key: &str) -> Option<&'static dyn Kind> {

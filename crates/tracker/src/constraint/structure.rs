@@ -175,7 +175,6 @@ pub fn size_in_edits(problem: &Problem) -> usize {
 type Blame = Option<(Owner, bool)>;
 
 /// What is wrong with a constraint, or with all of them together: what to point at, and a message.
-#[doc(hidden)]
 pub fn check_structure(problem: &Problem) -> Result<(), (Blame, String)> {
     let system = System::new(problem).map_err(|(owner, fault)| (Some((owner, true)), fault))?;
     let found = system.eliminate();

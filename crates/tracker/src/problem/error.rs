@@ -79,6 +79,14 @@ pub enum ProblemError {
         /// The most similar name that there is.
         nearest: Option<String>,
     },
+    /// A name in the table of places that no body has.
+    #[error("the table of places: there is no body `{name}`{}", did_you_mean(.nearest))]
+    UnknownBody {
+        /// The name.
+        name: String,
+        /// The most similar name that a body has.
+        nearest: Option<String>,
+    },
     /// A distance from a point to itself.
     #[error("the distance {name} joins the point to itself: remove it")]
     SelfDistance {
@@ -318,6 +326,7 @@ impl ProblemError {
     pub fn place(&self) -> Place {
         match self {
             Self::Dimension(_) => Place::Dimension,
+            Self::UnknownBody { .. } => Place::Pose,
             Self::BadName { place, .. }
             | Self::Number { place, .. }
             | Self::UnknownPoint { place, .. } => *place,

@@ -19,7 +19,6 @@ const DEPTH: usize = 50;
 ///
 /// # Errors
 /// What is wrong with it, in words, and where.
-#[doc(hidden)]
 pub fn evaluate(text: &str, parameters: &[(String, Decimal)]) -> Result<Decimal, String> {
     let mut reader = Reader::new(text, Numbers(parameters));
     let value = reader.sum()?;
@@ -32,7 +31,6 @@ pub fn evaluate(text: &str, parameters: &[(String, Decimal)]) -> Result<Decimal,
 }
 
 /// The names in an expression or equation, without those of points, in `A.x` and `|A-B|`.
-#[doc(hidden)]
 pub fn names(text: &str) -> impl Iterator<Item = &str> {
     let is_part = |c: char| c.is_alphanumeric() || c == '_' || c == '.';
     let outside = text.split('|').step_by(2);
@@ -42,7 +40,6 @@ pub fn names(text: &str) -> impl Iterator<Item = &str> {
 }
 
 /// Whether this can be the name of a parameter: letters, digits and underscores, a letter first.
-#[doc(hidden)]
 pub fn is_name(name: &str) -> bool {
     let mut letters = name.chars();
     letters
@@ -55,7 +52,6 @@ pub fn is_name(name: &str) -> bool {
 ///
 /// # Errors
 /// One cannot be computed: its name, and why.
-#[doc(hidden)]
 pub fn with_set(
     parameters: &[(String, Decimal)],
     set: &[(String, Decimal)],

@@ -1031,7 +1031,7 @@ impl<'a> Reader<'a> {
             Place::Whole => ("", places.points_table),
             Place::Pose => {
                 let line = match &error {
-                    ProblemError::UnknownPoint { name, .. } => places.poses.get(name).copied(),
+                    ProblemError::UnknownBody { name, .. } => places.poses.get(name).copied(),
                     _ => None,
                 };
                 ("", line.flatten())

@@ -2,7 +2,6 @@
 
 use super::builder::{ProblemBuilder, number};
 use super::draft::DraftShape;
-use super::error::Place;
 use super::file::{FileError, Line, Reader};
 use super::{Decimal, DecimalError, JointSort, Object, Point, Pose, ProblemError, Shape};
 use crate::constraint::{base_of, vector};
@@ -161,10 +160,7 @@ impl ProblemBuilder {
                 _ => {
                     let is_body = |o: &&Object| matches!(o.shape, Shape::Body { .. });
                     let bodies = objects.iter().filter(is_body).map(|o| o.name.as_str());
-                    return Err(ProblemError::UnknownPoint {
-                        objects: true,
-                        place: Place::Pose,
-                        what: "the table of places".to_owned(),
+                    return Err(ProblemError::UnknownBody {
                         name: name.clone(),
                         nearest: nearest(name, bodies),
                     });

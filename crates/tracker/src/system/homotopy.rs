@@ -559,7 +559,6 @@ impl Homotopy {
 
 /// The power of two nearest to the mean target length; where there are no distances, to the mean
 /// distance of the sketch's points from their middle.
-#[doc(hidden)]
 pub fn typical_length(problem: &Problem) -> f64 {
     let mean = if problem.distances.is_empty() {
         let mut places = problem.places();

@@ -88,7 +88,6 @@ fn names(homotopy: &Homotopy, motions: &[&DVector<f64>]) -> Vec<String> {
 }
 
 /// F(X, 1) in floats.
-#[doc(hidden)]
 pub struct Target {
     terms: Vec<Vec<Term>>,
     rights: Vec<f64>,

@@ -102,7 +102,6 @@ fn middle(place: &[Interval; 3]) -> Point3<f64> {
 }
 
 /// The width of the widest coordinate or unknown number, divided by the size of the largest; 0 where all are exactly zero.
-#[doc(hidden)]
 pub fn relative_width(points: &[[Interval; 3]], objects: &[Located]) -> f64 {
     let numbers = objects.iter().flat_map(|object| match object {
         Located::Number(number) => std::slice::from_ref(number),

@@ -617,7 +617,7 @@ mod tests {
     const MOST: usize = 7;
 
     proptest! {
-        #![proptest_config(ProptestConfig::with_cases(96))]
+        #![proptest_config(ProptestConfig::with_cases(192))]
         /// Along any polynomial, with Y near the inverse or not: the coefficients of F, and all bounds of the test at some σ
         /// and some w, against rational numbers. Weights, steps and the size of the figure take extreme values.
         #[test]

@@ -74,7 +74,6 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        #![proptest_config(ProptestConfig::with_cases(64))]
         /// |Y (J A − K)| with any Y and any guess of the solution, be it as good as it may.
         #[test]
         fn images_of_products_hold_exact_ones(
