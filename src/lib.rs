@@ -67,13 +67,14 @@
 //!
 //! From the ground up; each knows only those before it:
 //!
-//! - `decimal`: exact numbers as they are written
 //! - `hexadecimal`: bytes as text
 //! - `places`: short arrays, made place by place
 //! - `random`: numbers that look random
 //! - `order`: sorting by places
 //! - [`equations`]: rows of products of differences
 //! - `elimination`: row echelon forms and inverses over any field
+//! - [`rational`]: exact ratios
+//! - `decimal`: exact numbers as they are written
 //! - `residues`: numbers modulo a prime
 //! - [`interval`]: enclosures of exact numbers, bounds on rounding
 //! - `linalg`: dense kernels on small matrices, R-structured linear systems
@@ -98,7 +99,7 @@
 //! - [`report`]: tables, JSON, pictures, progress
 //! - `cli`: the command line of the program
 //!
-//! From `decimal` to `linalg` they are those of the package `krawl-kernel` in `crates/kernel`, from `statement` to
+//! From `hexadecimal` to `linalg` they are those of the package `krawl-kernel` in `crates/kernel`, from `statement` to
 //! [`track`] those of `krawl-tracker` in `crates/tracker`; [`import`], [`explore`], [`compare`], [`report`] and `cli` are
 //! this package's; all others are those of `krawl-solver` in `crates/solver`. Those that have no page here are these
 //! packages' own; where they are public they are so for the program, the tests and `crates/lab`, which has what the
@@ -113,7 +114,7 @@ extern crate self as krawl;
 // What computes and proves is in packages of its own, so that they alone are built for speed.
 pub use krawl_solver::{
     blocks, certificate, complete, complex, constraint, edit, equations, generate, interval,
-    motion, problem, system, tolerance, track,
+    motion, problem, rational, system, tolerance, track,
 };
 #[doc(hidden)]
 pub use krawl_solver::{elimination, linalg, plan, remarks};

@@ -27,7 +27,6 @@ use krawl::track::{
     self, Control, EndKind, First, Limit, Options, Outcome, PathEnd, Progress, Status, Trace,
     Witness,
 };
-use num_traits::Zero;
 use serde_json::Value;
 use std::io::BufWriter;
 use std::path::{Path, PathBuf};

@@ -6,8 +6,8 @@ use crate::common::moves::scaled;
 use crate::common::random::{recipe, same_each_time};
 use krawl::certificate::{Outcome, Settings, verify};
 use krawl::problem::Problem;
+use krawl::rational::Rational;
 use krawl::track::{Options, Status};
-use num_rational::BigRational;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
 
@@ -65,11 +65,11 @@ impl Tally {
 }
 
 /// A power of ten.
-fn ten_to(exponent: i32) -> BigRational {
-    let ten = BigRational::from_integer(10.into());
+fn ten_to(exponent: i32) -> Rational {
+    let ten = Rational::from_integer(10.into());
     match exponent < 0 {
-        true => (0..-exponent).fold(BigRational::from_integer(1.into()), |x, _| x / &ten),
-        false => (0..exponent).fold(BigRational::from_integer(1.into()), |x, _| x * &ten),
+        true => (0..-exponent).fold(Rational::from_integer(1.into()), |x, _| x / &ten),
+        false => (0..exponent).fold(Rational::from_integer(1.into()), |x, _| x * &ten),
     }
 }
 

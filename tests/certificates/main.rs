@@ -1,7 +1,6 @@
 //! Certificates: what checkers take and what they refuse.
 
-#[path = "../common/mod.rs"]
-mod common;
+use krawl_common as common;
 
 mod certificate_damage;
 mod certificate_edits;

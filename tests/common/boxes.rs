@@ -2,10 +2,10 @@
 
 use super::exact::{Range, exact, middle, ranges, root_near, squared_distance, squared_target};
 use krawl::problem::Problem;
+use krawl::rational::Rational;
 use krawl::track::Solution;
 use num_bigint::BigInt;
-use num_rational::BigRational;
-use num_traits::{Signed, Zero};
+use num_traits::Signed;
 
 /// Checks, in exact arithmetic and without the trackers' equations, what a certified run says
 /// about its solutions: each box can hold a solution and holds the one that Newton's method finds
@@ -67,15 +67,11 @@ fn check_gauge(problem: &Problem, box_: &[[Range; 3]]) -> Result<(), String> {
 }
 
 /// Whether a figure that is known to some thirty digits ([`root_near`]) is in a box, which may be a single point.
-pub fn holds(box_: &[[Range; 3]], figure: &[[BigRational; 3]]) -> bool {
+pub fn holds(box_: &[[Range; 3]], figure: &[[Rational; 3]]) -> bool {
     let all = || figure.iter().flatten();
-    let size = all()
-        .map(|x| x.abs())
-        .max()
-        .unwrap_or_else(BigRational::zero);
-    let known = size / BigRational::from_integer(BigInt::from(10).pow(28));
-    let inside =
-        |(range, x): (&Range, &BigRational)| range.lo <= x + &known && x - &known <= range.hi;
+    let size = all().map(|x| x.abs()).max().unwrap_or_else(Rational::zero);
+    let known = size / Rational::from_integer(BigInt::from(10).pow(28));
+    let inside = |(range, x): (&Range, &Rational)| range.lo <= x + &known && x - &known <= range.hi;
     box_.iter()
         .zip(figure)
         .all(|(ranges, point)| ranges.iter().zip(point).all(inside))
@@ -93,13 +89,13 @@ pub struct View {
     /// The point of the other problem that is this one's p-th.
     pub point: Vec<usize>,
     /// What each axis is multiplied by.
-    pub factors: [BigRational; 3],
+    pub factors: [Rational; 3],
 }
 
 impl View {
     /// Nothing changes.
     pub fn same(problem: &Problem) -> Self {
-        let one = || BigRational::from_integer(1.into());
+        let one = || Rational::from_integer(1.into());
         View {
             point: (0..problem.points.len()).collect(),
             factors: [one(), one(), one()],

@@ -2,20 +2,18 @@
 
 use krawl::interval::Interval;
 use krawl::problem::{Decimal, Problem, Target};
+use krawl::rational::Rational;
 use krawl::track::Solution;
 use nalgebra::{DMatrix, DVector};
-use num_bigint::BigInt;
-use num_rational::BigRational;
-use num_traits::{ToPrimitive, Zero};
 
 /// A float's exact value.
-pub fn exact(x: f64) -> BigRational {
-    BigRational::from_float(x).expect("a finite float")
+pub fn exact(x: f64) -> Rational {
+    Rational::from_float(x).expect("a finite float")
 }
 
 /// The rational number with few digits as a decimal.
-pub fn decimal(value: &BigRational) -> Decimal {
-    let ten = BigInt::from(10);
+pub fn decimal(value: &Rational) -> Decimal {
+    let ten = Rational::from_integer(10.into());
     let mut digits = value.clone();
     let mut shift = 0;
     while !digits.is_integer() {
@@ -27,7 +25,7 @@ pub fn decimal(value: &BigRational) -> Decimal {
 }
 
 /// The square of a target length.
-pub fn squared_target(target: &Target) -> BigRational {
+pub fn squared_target(target: &Target) -> Rational {
     match target {
         Target::Length(length) => length.value() * length.value(),
         Target::SquaredLength(squared) => squared.value().clone(),
@@ -37,8 +35,8 @@ pub fn squared_target(target: &Target) -> BigRational {
 /// All the numbers between two rational ones.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Range {
-    pub lo: BigRational,
-    pub hi: BigRational,
+    pub lo: Rational,
+    pub hi: Rational,
 }
 
 impl Range {
@@ -49,7 +47,7 @@ impl Range {
         }
     }
 
-    pub fn times(&self, factor: &BigRational) -> Self {
+    pub fn times(&self, factor: &Rational) -> Self {
         let (a, b) = (&self.lo * factor, &self.hi * factor);
         if a < b {
             Range { lo: a, hi: b }
@@ -58,7 +56,7 @@ impl Range {
         }
     }
 
-    pub fn contains(&self, x: &BigRational) -> bool {
+    pub fn contains(&self, x: &Rational) -> bool {
         self.lo <= *x && *x <= self.hi
     }
 
@@ -75,8 +73,8 @@ impl Range {
 
     fn squared(&self) -> Self {
         let (a, b) = (&self.lo * &self.lo, &self.hi * &self.hi);
-        let lo = if self.contains(&BigRational::zero()) {
-            BigRational::zero()
+        let lo = if self.contains(&Rational::zero()) {
+            Rational::zero()
         } else {
             a.clone().min(b.clone())
         };
@@ -87,8 +85,8 @@ impl Range {
 /// The values of the squared distance of two points over a box.
 pub fn squared_distance(points: &[[Range; 3]], a: usize, b: usize) -> Range {
     let zero = Range {
-        lo: BigRational::zero(),
-        hi: BigRational::zero(),
+        lo: Rational::zero(),
+        hi: Rational::zero(),
     };
     (0..3).fold(zero, |sum, k| {
         let square = points[a][k].minus(&points[b][k]).squared();
@@ -118,22 +116,21 @@ fn free_places(problem: &Problem) -> Vec<(usize, usize)> {
 
 /// A figure that meets the dimensions to some thirty digits, by Newton's method with exact
 /// residuals from a figure in the gauge. `None` where that does not converge.
-pub fn root_near(problem: &Problem, start: &[[f64; 3]]) -> Option<Vec<[BigRational; 3]>> {
+pub fn root_near(problem: &Problem, start: &[[f64; 3]]) -> Option<Vec<[Rational; 3]>> {
     let places = free_places(problem);
     let m = places.len();
-    let mut figure: Vec<[BigRational; 3]> = start.iter().map(|p| p.map(exact)).collect();
+    let mut figure: Vec<[Rational; 3]> = start.iter().map(|p| p.map(exact)).collect();
     let size = start.iter().flatten().fold(0.0f64, |a, x| a.max(x.abs()));
     for _ in 0..12 {
         let mut jacobian = DMatrix::<f64>::zeros(m, m);
         let mut residual = DVector::<f64>::zeros(m);
         for (e, distance) in problem.distances.iter().enumerate() {
             let [a, b] = distance.points;
-            let difference: [BigRational; 3] =
-                std::array::from_fn(|k| &figure[a][k] - &figure[b][k]);
-            let squared: BigRational = difference.iter().map(|d| d * d).sum();
-            residual[e] = (squared - squared_target(&distance.target)).to_f64()?;
+            let difference: [Rational; 3] = std::array::from_fn(|k| &figure[a][k] - &figure[b][k]);
+            let squared: Rational = difference.iter().map(|d| d * d).sum();
+            residual[e] = (squared - squared_target(&distance.target)).to_f64();
             for (column, &(point, axis)) in places.iter().enumerate() {
-                let slope = 2.0 * difference[axis].to_f64()?;
+                let slope = 2.0 * difference[axis].to_f64();
                 if point == a {
                     jacobian[(e, column)] += slope;
                 } else if point == b {
@@ -143,7 +140,7 @@ pub fn root_near(problem: &Problem, start: &[[f64; 3]]) -> Option<Vec<[BigRation
         }
         let step = jacobian.lu().solve(&residual)?;
         for (&(point, axis), &x) in places.iter().zip(step.iter()) {
-            figure[point][axis] -= BigRational::from_float(x)?;
+            figure[point][axis] -= Rational::from_float(x)?;
         }
         if step.amax() < 1e-30 * size {
             return Some(figure);

@@ -1,8 +1,6 @@
 //! What several of the tests need: shipped problems, runs, and checks that share no code with the
 //! trackers.
 
-#![allow(dead_code)] // every test program uses its own part
-
 pub mod boxes;
 pub mod certificate;
 pub mod covers;

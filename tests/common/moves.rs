@@ -2,10 +2,10 @@
 
 use super::exact::{decimal, squared_target};
 use krawl::problem::{Decimal, Point, Problem, Target};
-use num_rational::BigRational;
+use krawl::rational::Rational;
 
-pub fn ratio(numerator: i64, denominator: i64) -> BigRational {
-    BigRational::new(numerator.into(), denominator.into())
+pub fn ratio(numerator: i64, denominator: i64) -> Rational {
+    Rational::new(numerator.into(), denominator.into())
 }
 
 /// The sketch moved: turned by the angle of the 3-4-5 triangle about the z axis and, in space,
@@ -28,7 +28,7 @@ pub fn mirrored(problem: &Problem) -> Problem {
     map_sketch(problem, |[x, y, z]| [-x, y, z])
 }
 
-fn map_sketch(problem: &Problem, map: impl Fn([BigRational; 3]) -> [BigRational; 3]) -> Problem {
+fn map_sketch(problem: &Problem, map: impl Fn([Rational; 3]) -> [Rational; 3]) -> Problem {
     let mut other = problem.clone();
     for point in &mut other.points {
         let place = map(point.sketch.each_ref().map(|x| x.value().clone()));
@@ -39,7 +39,7 @@ fn map_sketch(problem: &Problem, map: impl Fn([BigRational; 3]) -> [BigRational;
 
 /// The same problem in another unit: all lengths multiplied, the bend's coefficient, which is a
 /// length too, among them.
-pub fn scaled(problem: &Problem, factor: &BigRational) -> Problem {
+pub fn scaled(problem: &Problem, factor: &Rational) -> Problem {
     let times = |x: &Decimal| decimal(&(x.value() * factor));
     let mut other = problem.clone();
     for point in &mut other.points {

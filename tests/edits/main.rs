@@ -1,7 +1,6 @@
 //! Edits, limits and blocks: figures that keep their shape while dimensions change.
 
-#[path = "../common/mod.rs"]
-mod common;
+use krawl_common as common;
 
 mod blocks;
 mod chosen_anew;

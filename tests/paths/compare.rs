@@ -490,10 +490,10 @@ fn settings_are_those_of_solve() {
 
 #[test]
 fn the_papers_steps_work_at_any_scale() {
-    use num_rational::BigRational;
+    use krawl::rational::Rational;
     let octahedron = crate::common::shipped("octahedron");
     for power in [8, -8] {
-        let factor = BigRational::from_integer(10.into()).pow(power);
+        let factor = Rational::from_integer(10.into()).pow(power);
         let problem = crate::common::moves::scaled(&octahedron, &factor);
         for space in crate::common::FLOAT_SPACES {
             let found = crate::common::closed(&problem, &krawl::track::Options::paper(space));

@@ -1,7 +1,6 @@
 //! Paths through sketches: what trackers find, in all modes and spaces, and what answers may depend on.
 
-#[path = "../common/mod.rs"]
-mod common;
+use krawl_common as common;
 
 mod bar_by_bar;
 mod bend;

@@ -1,8 +1,5 @@
 //! The program: its command line, files, pages and documents.
 
-#[path = "../common/mod.rs"]
-mod common;
-
 mod arrows;
 mod command_line;
 #[cfg(unix)]

@@ -19,7 +19,7 @@ fn off(file: &Path) -> f64 {
     let off = problem.distances.iter().map(|d| {
         let [a, b] = d.points.map(|p| at[p]);
         let square: f64 = (0..3).map(|k| (a[k] - b[k]).powi(2)).sum();
-        let wanted = num_traits::ToPrimitive::to_f64(&d.target.squared()).unwrap();
+        let wanted = d.target.squared().to_f64();
         (square.sqrt() - wanted.sqrt()).abs()
     });
     off.fold(0.0, f64::max)

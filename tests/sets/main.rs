@@ -1,7 +1,6 @@
 //! Sets of all solutions, real and complex, and searches for more.
 
-#[path = "../common/mod.rs"]
-mod common;
+use krawl_common as common;
 
 mod all_constraints;
 mod all_store;

@@ -1,8 +1,8 @@
 //! Decimals, kept exactly as they are written.
 
+use crate::rational::Rational;
 use num_bigint::BigInt;
-use num_rational::BigRational;
-use num_traits::{Signed, Zero};
+use num_traits::Zero;
 use std::fmt;
 use std::str::FromStr;
 
@@ -17,7 +17,7 @@ use std::str::FromStr;
 #[derive(Debug, Clone)]
 pub struct Decimal {
     text: String,
-    value: BigRational,
+    value: Rational,
     /// What it was computed by, if it was.
     expression: Option<Box<str>>,
 }
@@ -67,7 +67,7 @@ impl Decimal {
     }
 
     /// The exact value.
-    pub fn value(&self) -> &BigRational {
+    pub fn value(&self) -> &Rational {
         &self.value
     }
 
@@ -98,8 +98,7 @@ impl Decimal {
     pub fn plus(&self, other: &Decimal) -> Result<Decimal, DecimalError> {
         let place = self.last_digit().min(other.last_digit()).min(0);
         let places = place.unsigned_abs() as usize;
-        let scale =
-            BigRational::from_integer(num_bigint::BigInt::from(10).pow(place.unsigned_abs()));
+        let scale = Rational::from_integer(num_bigint::BigInt::from(10).pow(place.unsigned_abs()));
         let sum = ((&self.value + &other.value) * scale).to_integer();
         let digits = format!(
             "{:0>width$}",
@@ -171,7 +170,7 @@ impl FromStr for Decimal {
             .parse()
             .map_err(|_| not_a_number())?;
         let value = if digits.is_zero() {
-            BigRational::zero()
+            Rational::zero()
         } else {
             let exponent: i64 = exponent
                 .parse()
@@ -182,11 +181,11 @@ impl FromStr for Decimal {
             let shift = exponent - fraction.len() as i64;
             let power = BigInt::from(10).pow(shift.unsigned_abs() as u32);
             let size = if shift >= 0 {
-                BigRational::from(digits * power)
+                Rational::from(digits * power)
             } else {
-                BigRational::new(digits, power)
+                Rational::new(digits, power)
             };
-            let limit = BigRational::from(BigInt::from(10).pow(MAX_EXPONENT as u32));
+            let limit = Rational::from(BigInt::from(10).pow(MAX_EXPONENT as u32));
             if size > limit || size < limit.recip() {
                 return Err(DecimalError::OutOfRange(shown()));
             }
@@ -221,7 +220,7 @@ impl From<i32> for Decimal {
     fn from(value: i32) -> Self {
         Decimal {
             text: value.to_string(),
-            value: BigRational::from(BigInt::from(value)),
+            value: Rational::from(BigInt::from(value)),
             expression: None,
         }
     }
@@ -267,7 +266,7 @@ mod tests {
 
     #[test]
     fn keeps_the_exact_value() {
-        let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());
+        let ratio = |n: i64, d: i64| Rational::new(n.into(), d.into());
         assert_eq!(*read("1.12").unwrap().value(), ratio(112, 100));
         assert_eq!(*read("-0.5e1").unwrap().value(), ratio(-5, 1));
         assert_eq!(*read("+.25").unwrap().value(), ratio(1, 4));

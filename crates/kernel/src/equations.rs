@@ -3,7 +3,6 @@
 //! They are written once, for entries of any kind (a coordinate of a point, the number of an unknown) and factors of any
 //! kind, and evaluated once, over any [`Ring`].
 
-use num_rational::BigRational;
 use std::ops::{Add, Mul, Sub};
 
 /// Numbers that sums and products are made of: floats, intervals, residues modulo a prime, complex numbers.
@@ -15,12 +14,6 @@ pub trait Ring: Clone + Add<Output = Self> + Sub<Output = Self> + Mul<Output = S
 impl Ring for f64 {
     fn whole(number: i32) -> Self {
         number.into()
-    }
-}
-
-impl Ring for BigRational {
-    fn whole(number: i32) -> Self {
-        BigRational::from_integer(number.into())
     }
 }
 

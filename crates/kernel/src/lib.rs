@@ -34,5 +34,6 @@ pub mod order;
 pub mod places;
 #[doc(hidden)]
 pub mod random;
+pub mod rational;
 #[doc(hidden)]
 pub mod residues;

@@ -10,7 +10,9 @@
 #[cfg(test)]
 extern crate self as krawl;
 
-pub use krawl_tracker::{constraint, equations, generate, interval, problem, system, track};
+pub use krawl_tracker::{
+    constraint, equations, generate, interval, problem, rational, system, track,
+};
 #[doc(hidden)]
 pub use krawl_tracker::{
     debug_in_words, decimal, elimination, hexadecimal, linalg, order, places, plan, random,

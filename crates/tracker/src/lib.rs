@@ -13,7 +13,7 @@ extern crate self as krawl;
 pub use krawl_kernel::{
     debug_in_words, decimal, elimination, hexadecimal, linalg, order, places, random, residues,
 };
-pub use krawl_kernel::{equations, interval};
+pub use krawl_kernel::{equations, interval, rational};
 
 pub mod constraint;
 pub mod generate;

@@ -9,13 +9,12 @@
 use super::Answer;
 use super::polynomial::root;
 use krawl::problem::{Problem, Target};
-use num_rational::BigRational;
-use num_traits::{One, Signed, ToPrimitive, Zero};
+use krawl::rational::Rational;
 use std::f64::consts::PI;
 
-pub type Place = [BigRational; 2];
+pub type Place = [Rational; 2];
 
-fn squared(a: &Place, b: &Place) -> BigRational {
+fn squared(a: &Place, b: &Place) -> Rational {
     let d: Place = std::array::from_fn(|k| &a[k] - &b[k]);
     &d[0] * &d[0] + &d[1] * &d[1]
 }
@@ -24,7 +23,7 @@ fn squared(a: &Place, b: &Place) -> BigRational {
 #[derive(Debug, Clone)]
 pub struct Linkage {
     /// |ab|, |ac|, |cd|, |bd|, in this order.
-    sides: [BigRational; 4],
+    sides: [Rational; 4],
     /// e in the frame of c and d.
     e: Place,
     /// f.
@@ -41,11 +40,11 @@ pub struct Figure {
     pub e: Place,
 }
 
-fn cross(u: &Place, v: &Place) -> BigRational {
+fn cross(u: &Place, v: &Place) -> Rational {
     &u[0] * &v[1] - &u[1] * &v[0]
 }
 
-fn dot(u: &Place, v: &Place) -> BigRational {
+fn dot(u: &Place, v: &Place) -> Rational {
     &u[0] * &v[0] + &u[1] * &v[1]
 }
 
@@ -80,18 +79,18 @@ impl Linkage {
     }
 
     /// The tangent of half the crank's angle in the sketch.
-    pub fn half_tangent(&self) -> BigRational {
+    pub fn half_tangent(&self) -> Rational {
         &self.c[1] / (&self.sides[1] + &self.c[0])
     }
 
     /// The place with the given tangent of half the crank's angle, d on the side of the sketch.
-    pub fn figure(&self, half_tangent: &BigRational) -> Figure {
+    pub fn figure(&self, half_tangent: &Rational) -> Figure {
         let [ab, ac, cd, bd] = &self.sides;
-        let (one, u) = (BigRational::one(), half_tangent);
+        let (one, u) = (Rational::one(), half_tangent);
         let scale = (&one + u * u).recip();
         let two = &one + &one;
         let c: Place = [ac * (&one - u * u) * &scale, ac * &two * u * &scale];
-        let b: Place = [ab.clone(), BigRational::zero()];
+        let b: Place = [ab.clone(), Rational::zero()];
         // d from the circles around c and b.
         let axis = minus(&b, &c);
         let q = dot(&axis, &axis);
@@ -124,11 +123,9 @@ impl Linkage {
         if near == shortest || far == longest {
             return None;
         }
-        let cosine = |diagonal: &BigRational| {
-            let two = BigRational::from_integer(2.into());
-            ((ab * ab + ac * ac - diagonal * diagonal) / (two * ab * ac))
-                .to_f64()
-                .expect("a finite number")
+        let cosine = |diagonal: &Rational| {
+            let two = Rational::from_integer(2.into());
+            ((ab * ab + ac * ac - diagonal * diagonal) / (two * ab * ac)).to_f64()
         };
         let inner = near < shortest;
         let outer = far > longest;
@@ -158,9 +155,9 @@ impl Linkage {
     }
 
     fn distance_at(&self, angle: f64, left: bool) -> f64 {
-        let [ab, ac, cd, bd] = self.sides.each_ref().map(|x| x.to_f64().expect("finite"));
-        let [ex, ey] = self.e.each_ref().map(|x| x.to_f64().expect("finite"));
-        let [fx, fy] = self.f.each_ref().map(|x| x.to_f64().expect("finite"));
+        let [ab, ac, cd, bd] = self.sides.each_ref().map(|x| x.to_f64());
+        let [ex, ey] = self.e.each_ref().map(|x| x.to_f64());
+        let [fx, fy] = self.f.each_ref().map(|x| x.to_f64());
         let (cx, cy) = (ac * angle.cos(), ac * angle.sin());
         let (ux, uy) = (ab - cx, -cy);
         let q = ux * ux + uy * uy;

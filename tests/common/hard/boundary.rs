@@ -5,18 +5,18 @@ use super::families::{cut, decimal, joined, ratio, ten_to, text};
 use super::polynomial::root;
 use super::{Family, trees};
 use krawl::problem::{Decimal, Problem, ProblemBuilder};
+use krawl::rational::Rational;
 use krawl::track::Options;
-use num_rational::BigRational;
 
 /// Digits behind the point of lengths that are no decimals.
 const DIGITS: i32 = 40;
 
-fn square(x: &BigRational) -> BigRational {
+fn square(x: &Rational) -> Rational {
     x * x
 }
 
-fn exact(x: f64) -> BigRational {
-    BigRational::from_float(x).expect("a number")
+fn exact(x: f64) -> Rational {
+    Rational::from_float(x).expect("a number")
 }
 
 /// A tetrahedron over an edge a b that bends so that around t = 0.5 it is nearly as long as the two
@@ -59,12 +59,7 @@ enum Measure {
 }
 
 /// The other arm of a flat triangle over `base` with one arm and this γ or sine.
-fn other_arm(
-    base: &BigRational,
-    arm: &BigRational,
-    measure: Measure,
-    value: &BigRational,
-) -> BigRational {
+fn other_arm(base: &Rational, arm: &Rational, measure: Measure, value: &Rational) -> Rational {
     let cosine = root(&(ratio(1, 1) - square(value)));
     match measure {
         Measure::Gamma => {
@@ -80,8 +75,8 @@ fn other_arm(
 }
 
 /// A place at these distances from two others, to the left of the line between them.
-fn apex(a: &[BigRational; 2], b: &[BigRational; 2], arms: [&BigRational; 2]) -> [BigRational; 2] {
-    let line: [BigRational; 2] = std::array::from_fn(|i| &b[i] - &a[i]);
+fn apex(a: &[Rational; 2], b: &[Rational; 2], arms: [&Rational; 2]) -> [Rational; 2] {
+    let line: [Rational; 2] = std::array::from_fn(|i| &b[i] - &a[i]);
     let base = square(&line[0]) + square(&line[1]);
     let along = (&base + square(arms[0]) - square(arms[1])) / (&base * ratio(2, 1));
     let height = root(&(square(arms[0]) / &base - square(&along)));
@@ -106,7 +101,7 @@ fn threshold(k: i32, sign: i64) -> Problem {
     let (gamma, sine) = (&alpha + &off, &alpha * exact(SINES) + &off);
     let longest = ratio(8, 1);
     let (a, b) = ([ratio(0, 1), ratio(0, 1)], [ratio(6, 1), ratio(0, 1)]);
-    let short = |x: BigRational| cut(&x, DIGITS).value().clone();
+    let short = |x: Rational| cut(&x, DIGITS).value().clone();
     let pa = ratio(5, 1);
     let pb = short(other_arm(&longest, &pa, Measure::Gamma, &gamma));
     let p = apex(&a, &b, [&pa, &pb]);
@@ -121,13 +116,12 @@ fn threshold(k: i32, sign: i64) -> Problem {
     let sb = ratio(2, 1);
     let sq = short(other_arm(&qb, &sb, Measure::Sine, &sine));
     let s = apex(&b, &q, [&sb, &sq]);
-    let new =
-        |builder: ProblemBuilder, name, place: [BigRational; 2], to: [(&str, &BigRational); 2]| {
-            let builder = builder.point(name, place.map(|x| decimal(&x)));
-            to.iter().fold(builder, |builder, (other, length)| {
-                builder.distance(other, name, decimal(length))
-            })
-        };
+    let new = |builder: ProblemBuilder, name, place: [Rational; 2], to: [(&str, &Rational); 2]| {
+        let builder = builder.point(name, place.map(|x| decimal(&x)));
+        to.iter().fold(builder, |builder, (other, length)| {
+            builder.distance(other, name, decimal(length))
+        })
+    };
     let mut builder = Problem::build(&format!("threshold-{k}"), 2)
         .point("a", [0, 0])
         .point("b", [6, 0])

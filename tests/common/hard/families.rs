@@ -4,9 +4,8 @@ use super::bars::{self, Linkage, Place};
 use super::polynomial::root;
 use super::{Answer, trees};
 use krawl::problem::{Decimal, Problem, ProblemBuilder};
+use krawl::rational::Rational;
 use num_bigint::BigInt;
-use num_rational::BigRational;
-use num_traits::Zero;
 use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
 use std::sync::Mutex;
@@ -91,22 +90,22 @@ impl Family {
     }
 }
 
-pub fn ten_to(exponent: i32) -> BigRational {
-    let power = BigRational::from(BigInt::from(10).pow(exponent.unsigned_abs()));
+pub fn ten_to(exponent: i32) -> Rational {
+    let power = Rational::from(BigInt::from(10).pow(exponent.unsigned_abs()));
     if exponent < 0 { power.recip() } else { power }
 }
 
-pub fn ratio(numerator: i64, denominator: i64) -> BigRational {
-    BigRational::new(numerator.into(), denominator.into())
+pub fn ratio(numerator: i64, denominator: i64) -> Rational {
+    Rational::new(numerator.into(), denominator.into())
 }
 
 /// The number as a decimal, cut off after so many digits behind the point.
-pub fn cut(x: &BigRational, digits: i32) -> Decimal {
+pub fn cut(x: &Rational, digits: i32) -> Decimal {
     let scaled = (x * ten_to(digits)).round().to_integer();
     format!("{scaled}e-{digits}").parse().expect("a decimal")
 }
 
-pub fn decimal(x: &BigRational) -> Decimal {
+pub fn decimal(x: &Rational) -> Decimal {
     (0..)
         .map(|digits| cut(x, digits))
         .take(150)
@@ -114,7 +113,7 @@ pub fn decimal(x: &BigRational) -> Decimal {
         .expect("a number with few digits")
 }
 
-pub fn text(x: &str) -> BigRational {
+pub fn text(x: &str) -> Rational {
     x.parse::<Decimal>().expect("a decimal").value().clone()
 }
 
@@ -123,7 +122,7 @@ pub fn joined(
     mut builder: ProblemBuilder,
     name: &str,
     place: &[&str],
-    to: &[(&str, BigRational)],
+    to: &[(&str, Rational)],
 ) -> ProblemBuilder {
     builder = builder.point(name, place.iter().copied());
     for (other, length) in to {
@@ -169,8 +168,7 @@ fn tents(k: i32, sign: i64) -> Problem {
         .distance("a", "c", 4)
         .distance("b", "c", 5);
     let side = text("3.3") - epsilon;
-    let legs =
-        |last: BigRational, side: BigRational| [("a", side.clone()), ("b", side), ("c", last)];
+    let legs = |last: Rational, side: Rational| [("a", side.clone()), ("b", side), ("c", last)];
     let builder = joined(base, "p", &["1.5", "2", "6"], &legs(side.clone(), side));
     let builder = joined(
         builder,
@@ -187,7 +185,7 @@ fn tents(k: i32, sign: i64) -> Problem {
 }
 
 /// Places a, b, c, d, e and f of a platform on three bars and the point that it is driven to.
-fn platform(name: &str, places: &[Place; 6], target: BigRational) -> Problem {
+fn platform(name: &str, places: &[Place; 6], target: Rational) -> Problem {
     let names = ["a", "b", "c", "d", "e", "f"];
     let mut builder = Problem::build(name, 2);
     for (name, place) in names.iter().zip(places) {
@@ -204,7 +202,7 @@ fn platform(name: &str, places: &[Place; 6], target: BigRational) -> Problem {
         [1, 3],
     ];
     for [i, j] in edges {
-        let square = (0..2).fold(BigRational::zero(), |sum, k| {
+        let square = (0..2).fold(Rational::zero(), |sum, k| {
             let d = &places[i][k] - &places[j][k];
             sum + &d * &d
         });
@@ -224,7 +222,7 @@ fn platform(name: &str, places: &[Place; 6], target: BigRational) -> Problem {
 fn parallelogram(k: i32, crank: bool, sign: i64) -> Problem {
     let epsilon = ten_to(-2 * k) * ratio(sign, 10);
     let change = if crank {
-        [BigRational::zero(), epsilon]
+        [Rational::zero(), epsilon]
     } else {
         [&epsilon * ratio(4, 1), &epsilon * ratio(-3, 1)]
     };
@@ -257,9 +255,9 @@ fn triple(k: i32) -> Problem {
         linkage.figure(&u).e
     });
     // The circle through three places of e; where the curve is bent the other way there are more.
-    let side = |a: &Place, b: &Place| -> (Place, BigRational) {
+    let side = |a: &Place, b: &Place| -> (Place, Rational) {
         let normal: Place = std::array::from_fn(|i| &b[i] - &a[i]);
-        let value = (0..2).fold(BigRational::zero(), |sum, i| {
+        let value = (0..2).fold(Rational::zero(), |sum, i| {
             sum + (&b[i] * &b[i] - &a[i] * &a[i]) * ratio(1, 2)
         });
         (normal, value)
@@ -271,7 +269,7 @@ fn triple(k: i32) -> Problem {
         (&n[0] * &w - &m[0] * &v) / &det,
     ];
     places[5] = f.map(|x| cut(&x, 55).value().clone());
-    let radius = (0..2).fold(BigRational::zero(), |sum, i| {
+    let radius = (0..2).fold(Rational::zero(), |sum, i| {
         let d = &q[i] - &places[5][i];
         sum + &d * &d
     });

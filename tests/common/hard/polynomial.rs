@@ -1,59 +1,59 @@
 //! Polynomials in exact arithmetic, and their real roots by Sturm's theorem.
 
+use krawl::rational::Rational;
 use num_bigint::{BigInt, Sign};
-use num_rational::BigRational;
-use num_traits::{One, Signed, Zero};
+use num_traits::{One, Zero};
 
 /// Coefficients, the constant first.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Polynomial(pub Vec<BigRational>);
+pub struct Polynomial(pub Vec<Rational>);
 
 /// A power of two.
-pub fn two_to(exponent: i32) -> BigRational {
-    let power = BigRational::from(BigInt::one() << exponent.unsigned_abs());
+pub fn two_to(exponent: i32) -> Rational {
+    let power = Rational::from(BigInt::one() << exponent.unsigned_abs());
     if exponent < 0 { power.recip() } else { power }
 }
 
 /// √x, from below, to so many binary digits behind the point.
-pub fn root_to(bits: i32, x: &BigRational) -> BigRational {
+pub fn root_to(bits: i32, x: &Rational) -> Rational {
     let scaled = (x * two_to(2 * bits)).floor().to_integer();
-    BigRational::from(scaled.sqrt()) * two_to(-bits)
+    Rational::from(scaled.sqrt()) * two_to(-bits)
 }
 
 /// √x, from below, to 250 binary digits behind the point.
-pub fn root(x: &BigRational) -> BigRational {
+pub fn root(x: &Rational) -> Rational {
     root_to(250, x)
 }
 
 impl Polynomial {
-    pub fn constant(x: BigRational) -> Self {
+    pub fn constant(x: Rational) -> Self {
         Polynomial(vec![x]).trimmed()
     }
 
     fn trimmed(mut self) -> Self {
-        while self.0.last().is_some_and(Zero::is_zero) {
+        while self.0.last().is_some_and(Rational::is_zero) {
             self.0.pop();
         }
         self
     }
 
     pub fn plus(&self, other: &Self) -> Self {
-        let zero = BigRational::zero();
+        let zero = Rational::zero();
         let at = |p: &Self, k: usize| p.0.get(k).unwrap_or(&zero).clone();
         let terms = self.0.len().max(other.0.len());
         Polynomial((0..terms).map(|k| at(self, k) + at(other, k)).collect()).trimmed()
     }
 
-    pub fn scaled(&self, factor: &BigRational) -> Self {
+    pub fn scaled(&self, factor: &Rational) -> Self {
         Polynomial(self.0.iter().map(|c| c * factor).collect()).trimmed()
     }
 
     pub fn minus(&self, other: &Self) -> Self {
-        self.plus(&other.scaled(&-BigRational::one()))
+        self.plus(&other.scaled(&-Rational::one()))
     }
 
     pub fn times(&self, other: &Self) -> Self {
-        let mut out = vec![BigRational::zero(); self.0.len() + other.0.len()];
+        let mut out = vec![Rational::zero(); self.0.len() + other.0.len()];
         for (i, a) in self.0.iter().enumerate() {
             for (j, b) in other.0.iter().enumerate() {
                 out[i + j] += a * b;
@@ -62,8 +62,8 @@ impl Polynomial {
         Polynomial(out).trimmed()
     }
 
-    pub fn value(&self, x: &BigRational) -> BigRational {
-        let zero = BigRational::zero();
+    pub fn value(&self, x: &Rational) -> Rational {
+        let zero = Rational::zero();
         self.0.iter().rev().fold(zero, |sum, c| sum * x + c)
     }
 
@@ -71,7 +71,7 @@ impl Polynomial {
         let terms = self.0.iter().enumerate().skip(1);
         Polynomial(
             terms
-                .map(|(k, c)| c * BigRational::from_integer(k.into()))
+                .map(|(k, c)| c * Rational::from_integer(k.into()))
                 .collect(),
         )
     }
@@ -100,13 +100,13 @@ impl Polynomial {
     }
 
     /// A bound on the size of all roots (Cauchy), a power of two.
-    fn bound(&self) -> BigRational {
+    fn bound(&self) -> Rational {
         let leading = self.0.last().expect("not the zero polynomial");
         let largest = self.0.iter().map(|c| (c / leading).abs()).max();
-        let wanted = largest.expect("a coefficient") + BigRational::one();
-        let mut bound = BigRational::one();
+        let wanted = largest.expect("a coefficient") + Rational::one();
+        let mut bound = Rational::one();
         while bound <= wanted {
-            bound *= BigRational::from_integer(2.into());
+            bound *= Rational::from_integer(2.into());
         }
         bound
     }
@@ -118,9 +118,9 @@ struct Dyadic(BigInt, u32);
 
 /// Whole coefficients, in the same proportions.
 fn whole(p: &Polynomial) -> Vec<BigInt> {
-    let one = BigRational::one();
+    let one = Rational::one();
     let common = p.0.iter().fold(one, |common, c| {
-        let rest = BigRational::from((c * &common).denom().clone());
+        let rest = Rational::from((c * &common).denom().clone());
         common * rest
     });
     p.0.iter().map(|c| (c * &common).to_integer()).collect()
@@ -148,7 +148,7 @@ impl Sturm {
         while !sequence[sequence.len() - 1].0.is_empty() {
             let k = sequence.len();
             let rest = sequence[k - 2].rest(&sequence[k - 1]);
-            sequence.push(rest.scaled(&-BigRational::one()).normed());
+            sequence.push(rest.scaled(&-Rational::one()).normed());
         }
         sequence.pop();
         Sturm {
@@ -172,7 +172,7 @@ impl Sturm {
 /// A root, and whether it is a simple one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Root {
-    pub at: BigRational,
+    pub at: Rational,
     pub simple: bool,
 }
 
@@ -209,7 +209,7 @@ pub fn first_positive(p: &Polynomial) -> Option<Root> {
                 && sturm.roots(&lo, &hi) == 1;
     }
     let simple = !has_multiple || Sturm::new(&sturm.multiple).roots(&lo, &hi) == 0;
-    let at = BigRational::from(hi.0) * two_to(-(hi.1 as i32));
+    let at = Rational::from(hi.0) * two_to(-(hi.1 as i32));
     Some(Root { at, simple })
 }
 

@@ -2,15 +2,15 @@
 
 use super::families::{self, decimal, joined, ratio, ten_to, text};
 use super::{Answer, Family, trees};
-use crate::common::moves::scaled;
-use crate::common::shipped;
+use crate::moves::scaled;
+use crate::shipped;
 use krawl::problem::{Decimal, Problem, ProblemBuilder};
-use num_rational::BigRational;
+use krawl::rational::Rational;
 
 /// Lengths from 10^-k to 10^k: a triangle that long and so high beside one of equal sides.
 fn lengths_apart(k: i32) -> Problem {
     let (long, short) = (ten_to(k), ten_to(-k));
-    let times = |x: &BigRational, factor: &str| decimal(&(x * text(factor)));
+    let times = |x: &Rational, factor: &str| decimal(&(x * text(factor)));
     Problem::build(&format!("lengths-{k}"), 2)
         .point("a", [Decimal::from(0), Decimal::from(0)])
         .point("b", [decimal(&long), Decimal::from(0)])

@@ -10,21 +10,20 @@ use super::Answer;
 use super::polynomial::{Polynomial, Root, first_negative, first_positive, root_to, two_to};
 use krawl::problem::Problem;
 use krawl::problem::Target;
-use num_rational::BigRational;
-use num_traits::{Signed, Zero};
+use krawl::rational::Rational;
 
 /// Binary digits of lengths that are no rational numbers.
 const DIGITS: i32 = 150;
 
-fn whole(x: i64) -> BigRational {
-    BigRational::from_integer(x.into())
+fn whole(x: i64) -> Rational {
+    Rational::from_integer(x.into())
 }
 
 /// a(t) of every distance.
 pub fn lengths(problem: &Problem) -> Vec<Polynomial> {
     let of = |(index, distance): (usize, &krawl::problem::Distance)| {
         let [a, b] = distance.points.map(|p| &problem.points[p].sketch);
-        let squared: BigRational = (0..3)
+        let squared: Rational = (0..3)
             .map(|k| {
                 let d = a[k].value() - b[k].value();
                 &d * &d
@@ -38,7 +37,7 @@ pub fn lengths(problem: &Problem) -> Vec<Polynomial> {
         let c = if index == problem.homotopy.bend {
             problem.homotopy.bend_coefficient.value().clone()
         } else {
-            BigRational::zero()
+            Rational::zero()
         };
         let slope = target - &sketch + &c;
         Polynomial(vec![sketch, slope, -c]).plus(&Polynomial(vec![]))
@@ -54,7 +53,7 @@ fn gram(problem: &Problem, squares: &[Polynomial], corners: &[usize]) -> Polynom
         squares[index.expect("the corners of a simplex are joined")].clone()
     };
     let (apex, others) = corners.split_last().expect("corners");
-    let half = BigRational::new(1.into(), 2.into());
+    let half = Rational::new(1.into(), 2.into());
     let entry = |i: usize, j: usize| {
         let (p, q) = (others[i], others[j]);
         if i == j {
@@ -103,23 +102,23 @@ pub fn answer(problem: &Problem) -> Answer {
         .collect();
     // Lengths that are roots are known to 150 binary digits only.
     let tolerance = two_to(-100);
-    let near = |a: &BigRational, b: &BigRational| (a - b).abs() < tolerance;
+    let near = |a: &Rational, b: &Rational| (a - b).abs() < tolerance;
     let mut ends = [
         nearest(&volumes, first_negative, &tolerance),
         nearest(&volumes, first_positive, &tolerance),
     ];
     let flat: Vec<usize> = (0..volumes.len())
-        .filter(|&k| volumes[k].value(&BigRational::zero()).is_zero())
+        .filter(|&k| volumes[k].value(&Rational::zero()).is_zero())
         .collect();
     match flat[..] {
         [] => {}
         // The path lies on the side where the simplex is one.
         [k] => {
-            let slope = volumes[k].derivative().value(&BigRational::zero());
+            let slope = volumes[k].derivative().value(&Rational::zero());
             if slope.is_zero() {
                 return Answer::NeverCloses;
             }
-            ends[usize::from(slope.is_negative())] = End::At(k, BigRational::zero());
+            ends[usize::from(slope.is_negative())] = End::At(k, Rational::zero());
         }
         _ => return Answer::NeverCloses,
     }
@@ -146,7 +145,7 @@ pub fn answer(problem: &Problem) -> Answer {
 }
 
 enum End {
-    At(usize, BigRational),
+    At(usize, Rational),
     /// There is none, or the path is singular there.
     None,
 }
@@ -154,7 +153,7 @@ enum End {
 fn nearest(
     volumes: &[Polynomial],
     first: fn(&Polynomial) -> Option<Root>,
-    tolerance: &BigRational,
+    tolerance: &Rational,
 ) -> End {
     let roots: Vec<(usize, Root)> = volumes
         .iter()

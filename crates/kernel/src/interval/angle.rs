@@ -1,14 +1,14 @@
 //! Angles in degrees, enclosed.
 
 use super::{Interval, Real, hull, point};
-use num_rational::BigRational;
+use crate::rational::Rational;
 
 /// The angles between 0 and 180 degrees with these cosines. What floats say is widened until exact cosines are proved to be beyond.
 pub fn degrees_of_cosine(cosines: Interval) -> Interval {
     let near = |x: f64| x.clamp(-1.0, 1.0).acos().to_degrees();
     let (mut low, mut high) = (near(cosines.sup()), near(cosines.inf()));
     let at = |x: f64| {
-        let exact = BigRational::from_float(x);
+        let exact = Rational::from_float(x);
         exact.map(|x| Real::cosine_of_degrees(x).enclose())
     };
     let mut step = 1e-13;

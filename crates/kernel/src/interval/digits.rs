@@ -1,9 +1,8 @@
 //! As many digits of a number as are certain.
 
 use crate::interval::Interval;
+use crate::rational::Rational;
 use num_bigint::BigInt;
-use num_rational::BigRational;
-use num_traits::Signed;
 
 /// More digits than a float holds say nothing.
 const MOST_DIGITS: i32 = 17;
@@ -37,7 +36,7 @@ pub fn certain_digits(x: Interval) -> String {
         };
     }
     let bounds = || format!("[{lo:e}, {hi:e}]");
-    let exact = (BigRational::from_float(lo), BigRational::from_float(hi));
+    let exact = (Rational::from_float(lo), Rational::from_float(hi));
     let (Some(exact_lo), Some(exact_hi)) = exact else {
         return bounds();
     };
@@ -75,7 +74,7 @@ fn zero(x: Interval) -> Option<String> {
     if !x.contains(0.0) {
         return None;
     }
-    let largest = BigRational::from_float(x.mag())?;
+    let largest = Rational::from_float(x.mag())?;
     let shown = (4..=16usize)
         .rev()
         .map(|decimals| format!("{:.*}", decimals, 0.0));
@@ -92,13 +91,13 @@ fn fixed(x: f64) -> bool {
 }
 
 /// The exact value of a decimal, and of a 1 in its last digit.
-fn value_and_unit(shown: &str) -> Option<(BigRational, BigRational)> {
+fn value_and_unit(shown: &str) -> Option<(Rational, Rational)> {
     let (mantissa, exponent) = shown.split_once('e').unwrap_or((shown, "0"));
     let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
     let digits: BigInt = format!("{whole}{fraction}").parse().ok()?;
     let exponent = exponent.parse::<i32>().ok()? - i32::try_from(fraction.len()).ok()?;
-    let unit = BigRational::from(BigInt::from(10)).pow(exponent);
-    Some((BigRational::from(digits) * &unit, unit))
+    let unit = Rational::from(BigInt::from(10)).pow(exponent);
+    Some((Rational::from(digits) * &unit, unit))
 }
 
 #[cfg(test)]
@@ -141,12 +140,12 @@ mod tests {
             let shown = certain_digits(x);
             if let Some((value, unit)) = value_and_unit(&shown) {
                 for end in [x.inf(), x.sup()] {
-                    prop_assert!((BigRational::from_float(end).unwrap() - &value).abs() <= unit);
+                    prop_assert!((Rational::from_float(end).unwrap() - &value).abs() <= unit);
                 }
                 // And no more than a factor of a few hundred is given away. The shortest decimal
                 // of a single float may end early: it is nearer than its last digit says.
-                let wide = BigRational::from_float(x.wid().max(x.mag() * 1e-16)).unwrap();
-                let given_away = unit > wide * BigRational::from(BigInt::from(100));
+                let wide = Rational::from_float(x.wid().max(x.mag() * 1e-16)).unwrap();
+                let given_away = unit > wide * Rational::from(BigInt::from(100));
                 prop_assert!(x.is_singleton() || !given_away, "{}", shown);
             } else {
                 prop_assert!(width >= -2, "{}", shown);

@@ -5,8 +5,7 @@
 //! Softw. 44 (2017), and no more, so that the bounds proved there can be read beside them.
 
 use super::rounding::{UNDERFLOW, UNIT_ROUNDOFF};
-use num_rational::BigRational;
-use num_traits::{Signed, ToPrimitive};
+use crate::rational::Rational;
 use std::ops::{Add, Mul, Neg, Sub};
 
 /// The unevaluated sum of two floats, `hi` being the float nearest to it.
@@ -51,11 +50,10 @@ impl DoubleDouble {
     }
 
     /// The number nearest to a ratio, or next to it, and a bound on what is left.
-    pub fn near(value: &BigRational) -> (Self, f64) {
-        let exact = |x: f64| BigRational::from_float(x).expect("a finite float");
-        let nearest = |x: &BigRational| x.to_f64().expect("a ratio within the floats' range");
-        let hi = nearest(value);
-        let out = two_sum(hi, nearest(&(value - exact(hi))));
+    pub fn near(value: &Rational) -> (Self, f64) {
+        let exact = |x: f64| Rational::from_float(x).expect("a finite float");
+        let hi = value.to_f64();
+        let out = two_sum(hi, (value - exact(hi)).to_f64());
         (
             out,
             at_least(&(value - exact(out.hi) - exact(out.lo)).abs()),
@@ -77,10 +75,9 @@ impl DoubleDouble {
 }
 
 /// A float that is not below a non-negative ratio.
-pub fn at_least(value: &BigRational) -> f64 {
-    let near = value.to_f64().expect("a ratio within the floats' range");
+pub fn at_least(value: &Rational) -> f64 {
     // The nearest float or a neighbour of it.
-    near * (1.0 + 1e-10) + UNDERFLOW
+    value.to_f64() * (1.0 + 1e-10) + UNDERFLOW
 }
 
 impl From<f64> for DoubleDouble {
@@ -145,11 +142,10 @@ pub fn gamma_double(n: usize) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use num_traits::Zero;
     use proptest::prelude::*;
 
-    fn exact(x: DoubleDouble) -> BigRational {
-        let exact = |x: f64| BigRational::from_float(x).unwrap();
+    fn exact(x: DoubleDouble) -> Rational {
+        let exact = |x: f64| Rational::from_float(x).unwrap();
         exact(x.hi) + exact(x.lo)
     }
 
@@ -170,8 +166,8 @@ mod tests {
         prop_oneof![(number(), number()), near]
     }
 
-    fn within(value: DoubleDouble, exactly: &BigRational, factor: f64) -> bool {
-        let bound = BigRational::from_float(factor * UNIT_ROUNDOFF * UNIT_ROUNDOFF).unwrap();
+    fn within(value: DoubleDouble, exactly: &Rational, factor: f64) -> bool {
+        let bound = Rational::from_float(factor * UNIT_ROUNDOFF * UNIT_ROUNDOFF).unwrap();
         value.hi == value.hi + value.lo && (exact(value) - exactly).abs() <= bound * exactly.abs()
     }
 
@@ -187,10 +183,10 @@ mod tests {
 
         #[test]
         fn ratios_are_near(digits in -999_999_999_999i64..999_999_999_999, below in 1i64..999_999) {
-            let value = BigRational::new(digits.into(), below.into());
+            let value = Rational::new(digits.into(), below.into());
             let (near, left) = DoubleDouble::near(&value);
             let off = (exact(near) - &value).abs();
-            prop_assert!(off <= BigRational::from_float(left).unwrap());
+            prop_assert!(off <= Rational::from_float(left).unwrap());
             prop_assert!(value.is_zero() || left <= 1e-31 * near.size() + UNDERFLOW);
         }
     }

@@ -2,9 +2,9 @@
 
 use super::{Interval, hull};
 use crate::decimal::Decimal;
+use crate::rational::Rational;
 use num_bigint::BigInt;
-use num_rational::BigRational;
-use num_traits::{Float, ToPrimitive};
+use num_traits::Float;
 use std::cmp::Ordering;
 
 /// The tightest interval of floats that holds the decimal: one float where the decimal is one,
@@ -25,16 +25,14 @@ pub fn enclose(decimal: &Decimal) -> Interval {
 ///
 /// # Panics
 /// If the value is beyond the range of floats.
-pub fn enclose_rational(value: &BigRational) -> Interval {
-    let near = value
-        .to_f64()
-        .filter(|x| x.is_finite())
-        .expect("a ratio within the floats' range");
+pub fn enclose_rational(value: &Rational) -> Interval {
+    let near = value.to_f64();
+    assert!(near.is_finite(), "a ratio beyond the floats' range");
     enclose_near(value, near)
 }
 
 /// Walks from a float near `value` to its neighbours around it; the comparisons are exact.
-fn enclose_near(value: &BigRational, near: f64) -> Interval {
+fn enclose_near(value: &Rational, near: f64) -> Interval {
     let (mut lo, mut hi) = (near, near);
     while compare(lo, value).is_gt() {
         lo = lo.next_down();
@@ -53,7 +51,7 @@ fn enclose_near(value: &BigRational, near: f64) -> Interval {
 }
 
 /// A float beside a ratio of whole numbers, exactly: m 2ᵉ d beside n for the ratio n/d, whose denominator is positive.
-fn compare(x: f64, value: &BigRational) -> Ordering {
+fn compare(x: f64, value: &Rational) -> Ordering {
     assert!(x.is_finite(), "a finite float");
     let (mantissa, exponent, sign) = Float::integer_decode(x);
     let left = BigInt::from(i128::from(mantissa) * i128::from(sign)) * value.denom();
@@ -75,8 +73,9 @@ mod tests {
             let (x, y) = (f64::from_bits(bits), f64::from_bits(other));
             let y = if near { x.next_up() } else { y };
             prop_assume!(x.is_finite() && y.is_finite());
-            let [a, b] = [x, y].map(|x| BigRational::from_float(x).unwrap());
-            for ratio in [&a, &b, &(&a / BigInt::from(-3)), &(&b * BigInt::from(7) / BigInt::from(3))] {
+            let [a, b] = [x, y].map(|x| Rational::from_float(x).unwrap());
+            let third = |above: i32| Rational::new(above.into(), 3.into());
+            for ratio in [&a, &b, &(&a * third(-1)), &(&b * third(7))] {
                 prop_assert_eq!(compare(x, ratio), a.cmp(ratio));
             }
         }
@@ -85,7 +84,7 @@ mod tests {
         fn holds_the_decimal_and_is_tight(digits in -999_999_999_999i64..999_999_999_999, shift in -30i32..30) {
             let decimal: Decimal = format!("{digits}e{shift}").parse().unwrap();
             let box_ = enclose(&decimal);
-            let exact = |x: f64| BigRational::from_float(x).unwrap();
+            let exact = |x: f64| Rational::from_float(x).unwrap();
             prop_assert!(exact(box_.inf()) <= *decimal.value() && *decimal.value() <= exact(box_.sup()));
             prop_assert!(box_.sup() <= box_.inf().next_up());
             prop_assert_eq!(enclose_rational(decimal.value()), box_);

@@ -1,10 +1,9 @@
 //! Exact real numbers: what the decimals of a problem denote, with roots and with cosines of angles.
 
 use super::{DoubleDouble, Interval, at_least, enclose_rational};
+use crate::rational::Rational;
 use num_bigint::BigInt;
-use num_integer::Integer;
-use num_rational::BigRational;
-use num_traits::{One, Signed, ToPrimitive, Zero};
+use num_traits::{One, ToPrimitive, Zero};
 use std::borrow::Cow;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 use std::sync::{Arc, OnceLock};
@@ -15,7 +14,7 @@ use std::sync::{Arc, OnceLock};
 ///
 /// ```
 /// use krawl::interval::Real;
-/// let half = Real::cosine_of_degrees(num_rational::BigRational::from_integer(60.into()));
+/// let half = Real::cosine_of_degrees(krawl::rational::Rational::from_integer(60.into()));
 /// assert!(half.enclose().contains(0.5));
 /// let two = Real::whole(2);
 /// let root = two.clone().sqrt();
@@ -24,11 +23,11 @@ use std::sync::{Arc, OnceLock};
 #[derive(Debug, Clone, PartialEq)]
 pub enum Real {
     /// A ratio of whole numbers.
-    Rational(BigRational),
+    Rational(Rational),
     /// The root of a number that is not negative.
     Root(Shared<Real>),
     /// The cosine of an angle in degrees.
-    Cosine(Shared<BigRational>),
+    Cosine(Shared<Rational>),
     /// A sum.
     Sum(Shared<[Real; 2]>),
     /// A product.
@@ -79,8 +78,8 @@ impl<T: PartialEq> PartialEq for Shared<T> {
     }
 }
 
-impl From<BigRational> for Real {
-    fn from(value: BigRational) -> Self {
+impl From<Rational> for Real {
+    fn from(value: Rational) -> Self {
         Real::Rational(value)
     }
 }
@@ -94,7 +93,7 @@ impl From<BigInt> for Real {
 impl Real {
     /// Zero.
     pub fn zero() -> Self {
-        Real::Rational(BigRational::zero())
+        Real::Rational(Rational::zero())
     }
 
     /// A number of which only an enclosure is known.
@@ -102,9 +101,9 @@ impl Real {
     /// # Panics
     /// If a bound is not finite.
     pub fn within(interval: Interval) -> Self {
-        let ratio = |x: f64| BigRational::from_float(x).expect("a bound is finite");
+        let ratio = |x: f64| Rational::from_float(x).expect("a bound is finite");
         let (low, high) = (ratio(interval.inf()), ratio(interval.sup()));
-        let half = BigRational::new(1.into(), 2.into());
+        let half = Rational::new(1.into(), 2.into());
         Real::Within(Box::new(Ball {
             middle: (&low + &high) * &half,
             radius: (high - low) * half,
@@ -113,14 +112,14 @@ impl Real {
 
     /// The whole number `value`.
     pub fn whole(value: i64) -> Self {
-        Real::Rational(BigRational::from_integer(value.into()))
+        Real::Rational(Rational::from_integer(value.into()))
     }
 
     /// The cosine of an angle in degrees; exact where it is a multiple of one half.
-    pub fn cosine_of_degrees(degrees: BigRational) -> Self {
-        let full = BigRational::from_integer(360.into());
+    pub fn cosine_of_degrees(degrees: Rational) -> Self {
+        let full = Rational::from_integer(360.into());
         let mut angle = &degrees - (&degrees / &full).floor() * &full;
-        if angle > BigRational::from_integer(180.into()) {
+        if angle > Rational::from_integer(180.into()) {
             angle = full - angle;
         }
         // 0 ≤ angle ≤ 180.
@@ -133,12 +132,12 @@ impl Real {
             Some(180) => (-1, 1),
             _ => return Real::Cosine(Shared::new(angle)),
         };
-        Real::Rational(BigRational::new(above.into(), below.into()))
+        Real::Rational(Rational::new(above.into(), below.into()))
     }
 
     /// The sine of an angle in degrees.
-    pub fn sine_of_degrees(degrees: BigRational) -> Self {
-        Self::cosine_of_degrees(BigRational::from_integer(90.into()) - degrees)
+    pub fn sine_of_degrees(degrees: Rational) -> Self {
+        Self::cosine_of_degrees(Rational::from_integer(90.into()) - degrees)
     }
 
     /// The root. Where this number is a ratio of squares, it is exact.
@@ -150,14 +149,14 @@ impl Real {
             assert!(!value.is_negative(), "the root of a negative number");
             let (above, below) = (value.numer().sqrt(), value.denom().sqrt());
             if &above * &above == *value.numer() && &below * &below == *value.denom() {
-                return Real::Rational(BigRational::new(above, below));
+                return Real::Rational(Rational::new(above, below));
             }
         }
         Real::Root(Shared::new(self))
     }
 
     /// The number as a ratio, where it is kept as one.
-    pub fn as_rational(&self) -> Option<&BigRational> {
+    pub fn as_rational(&self) -> Option<&Rational> {
         match self {
             Real::Rational(value) => Some(value),
             _ => None,
@@ -166,7 +165,7 @@ impl Real {
 
     /// Whether the number is known to be zero without any computation.
     pub fn is_zero(&self) -> bool {
-        self.as_rational().is_some_and(Zero::is_zero)
+        self.as_rational().is_some_and(Rational::is_zero)
     }
 
     /// Whether this is written as −1 times the other number.
@@ -201,8 +200,8 @@ impl Real {
         if ball.radius.is_zero() {
             return enclose_rational(&ball.middle);
         }
-        let low = enclose_rational(&sum(&ball.middle, &-&ball.radius));
-        let high = enclose_rational(&sum(&ball.middle, &ball.radius));
+        let low = enclose_rational(&(&ball.middle - &ball.radius));
+        let high = enclose_rational(&(&ball.middle + &ball.radius));
         low.convex_hull(high)
     }
 
@@ -283,13 +282,13 @@ impl<'a> Div<&'a Real> for &'a Real {
 /// Numbers are kept to 2 to minus this.
 const BITS: u64 = 320;
 
-/// A ratio and how far the exact number may be from it. What operations make is not in lowest terms.
+/// A ratio and how far the exact number may be from it.
 #[derive(Debug, Clone)]
 pub struct Ball {
     /// The ratio.
-    pub middle: BigRational,
+    pub middle: Rational,
     /// How far the number may be away.
-    pub radius: BigRational,
+    pub radius: Rational,
 }
 
 /// Whether two balls' numbers are known to be the same one.
@@ -301,10 +300,10 @@ impl PartialEq for Ball {
 
 impl Ball {
     /// Just this ratio.
-    pub fn exactly(middle: BigRational) -> Self {
+    pub fn exactly(middle: Rational) -> Self {
         Ball {
             middle,
-            radius: BigRational::zero(),
+            radius: Rational::zero(),
         }
     }
 
@@ -314,8 +313,8 @@ impl Ball {
             return Self::exactly(&self.middle + &other.middle);
         }
         Ball {
-            middle: sum(&self.middle, &other.middle),
-            radius: sum(&self.radius, &other.radius),
+            middle: &self.middle + &other.middle,
+            radius: &self.radius + &other.radius,
         }
     }
 
@@ -324,14 +323,10 @@ impl Ball {
         if self.radius.is_zero() && other.radius.is_zero() {
             return Self::exactly(&self.middle * &other.middle);
         }
-        let most = sum(&other.middle.abs(), &other.radius);
-        let radius = sum(
-            &product(&self.middle.abs(), &other.radius),
-            &product(&self.radius, &most),
-        );
+        let most = other.middle.abs() + &other.radius;
         Ball {
-            middle: product(&self.middle, &other.middle),
-            radius,
+            middle: &self.middle * &other.middle,
+            radius: self.middle.abs() * &other.radius + &self.radius * most,
         }
     }
 
@@ -348,27 +343,26 @@ impl Ball {
     /// # Panics
     /// If zero is one of them.
     pub fn inverse(&self) -> Self {
-        let least = sum(&self.middle.abs(), &-&self.radius);
+        let least = self.middle.abs() - &self.radius;
         assert!(least.is_positive(), "division by what may be zero");
         // |1/x − 1/m| = |m − x| / |x m|.
-        let radius = product(&self.radius, &inverse(&product(&least, &self.middle.abs())));
         Ball {
             middle: self.middle.recip(),
-            radius,
+            radius: &self.radius / (least * self.middle.abs()),
         }
     }
 
     /// The roots of a ball's numbers, those below zero being none.
     pub fn sqrt(&self) -> Self {
         let middle = if self.middle.is_negative() {
-            BigRational::zero()
+            Rational::zero()
         } else {
             self.middle.clone()
         };
         if middle.is_zero() {
             let top = root(&self.radius);
             return Ball {
-                middle: BigRational::zero(),
+                middle: Rational::zero(),
                 radius: top.middle + top.radius,
             };
         }
@@ -377,8 +371,8 @@ impl Ball {
             return near;
         }
         // |√x − √m| = |x − m| / (√x + √m).
-        let least = sum(&near.middle, &-&near.radius);
-        let radius = sum(&near.radius, &product(&self.radius, &inverse(&least)));
+        let least = &near.middle - &near.radius;
+        let radius = near.radius + &self.radius / least;
         Ball {
             middle: near.middle,
             radius,
@@ -401,65 +395,20 @@ impl Ball {
         // Relative to the middle's size, a power of two.
         let size = self.middle.numer().bits() as i64 - self.middle.denom().bits() as i64;
         let shift = BITS as i64 - size;
-        let (above, below) = times_power(&self.middle, shift);
-        // The nearest whole number: below the ratio and a half.
-        let more: BigInt = (&above << 1) + &below;
-        let near = more.div_floor(&(&below << 1));
-        // How far that is, in units of 2 to minus `shift`.
-        let moved = BigRational::new_raw((&near * &below - above).abs(), below);
-        let (above, below) = times_power(&self.radius, shift);
-        // A radius of few digits, not smaller.
-        let radius = sum(&BigRational::new_raw(above, below), &moved);
-        let (above, below) = times_power(&radius, 64);
-        let middle = over_power(near, shift);
-        let radius = over_power(above.div_ceil(&below), shift + 64);
+        let middle = self.middle.shifted(shift);
+        let near = (&middle + Rational::new(1.into(), 2.into())).floor();
+        // How far that is, in units of 2 to minus `shift`; a radius of few digits, not smaller.
+        let radius = self.radius.shifted(shift) + (&near - middle).abs();
+        let radius = radius.shifted(64).ceil().shifted(-shift - 64);
+        let middle = near.shifted(-shift);
         Ball { middle, radius }
     }
 }
 
-// Numbers here have powers of two for denominators, nearly all, and are rounded after each operation. Ratios in lowest terms cost
-// a greatest common divisor each time, which took nine tenths of the time that a problem with angles needed to be set up.
-
-/// A sum, not in lowest terms.
-fn sum(a: &BigRational, b: &BigRational) -> BigRational {
-    let numerator = a.numer() * b.denom() + b.numer() * a.denom();
-    BigRational::new_raw(numerator, a.denom() * b.denom())
-}
-
-/// A product, not in lowest terms.
-fn product(a: &BigRational, b: &BigRational) -> BigRational {
-    BigRational::new_raw(a.numer() * b.numer(), a.denom() * b.denom())
-}
-
-/// The inverse of a positive ratio, not in lowest terms.
-fn inverse(of: &BigRational) -> BigRational {
-    BigRational::new_raw(of.denom().clone(), of.numer().clone())
-}
-
-/// Numerator and denominator of a ratio times 2 to this, not in lowest terms.
-fn times_power(of: &BigRational, exponent: i64) -> (BigInt, BigInt) {
-    let shift = exponent.unsigned_abs();
-    match exponent >= 0 {
-        true => (of.numer() << shift, of.denom().clone()),
-        false => (of.numer().clone(), of.denom() << shift),
-    }
-}
-
-/// A whole number over 2 to this, in lowest terms.
-fn over_power(whole: BigInt, exponent: i64) -> BigRational {
-    if exponent <= 0 || whole.is_zero() {
-        return BigRational::from_integer(whole << exponent.min(0).unsigned_abs());
-    }
-    let common = whole.trailing_zeros().unwrap_or(0);
-    let common = common.min(exponent.unsigned_abs());
-    let left = exponent.unsigned_abs() - common;
-    BigRational::new_raw(whole >> common, BigInt::one() << left)
-}
-
 /// The root of a ratio that is not negative, to a relative 2⁻²⁵⁰.
-pub fn root(squared: &BigRational) -> Ball {
+pub fn root(squared: &Rational) -> Ball {
     if squared.is_zero() {
-        return Ball::exactly(BigRational::zero());
+        return Ball::exactly(Rational::zero());
     }
     let (above, below) = (squared.numer(), squared.denom());
     // ⌊√⌊x 4ᵏ⌋⌋ ≤ 2ᵏ √x < that + 1.
@@ -468,24 +417,22 @@ pub fn root(squared: &BigRational) -> Ball {
     let scaled: BigInt = (above << (2 * k)) / below;
     let k = i64::try_from(k).expect("a number of bits");
     Ball {
-        middle: over_power(scaled.sqrt(), k),
-        radius: over_power(BigInt::one(), k),
+        middle: Rational::from(scaled.sqrt()).shifted(-k),
+        radius: Rational::one().shifted(-k),
     }
 }
 
 /// The cosine of an angle from 0 to 180 degrees.
-fn cosine(degrees: &BigRational) -> Ball {
+fn cosine(degrees: &Rational) -> Ball {
     static PI: OnceLock<Ball> = OnceLock::new();
     let pi = PI.get_or_init(pi);
     // All in units of 2⁻⁴⁰⁰, quotients rounded down, errors counted in units and rounded up.
     let one = BigInt::one() << 400u32;
-    let part = degrees / BigRational::from_integer(180.into());
-    let units = |of: &BigRational| times_power(&product(of, &part), 400);
-    let (above, below) = units(&pi.middle);
-    let x = above.div_floor(&below);
+    let part = degrees / Rational::from_integer(180.into());
+    let units = |of: &Rational| (of * &part).shifted(400);
+    let x = units(&pi.middle).floor().to_integer();
     // |x| ≤ π < 4: the square is off by less than 8 times what x is, and by one for rounding.
-    let (above, below) = units(&pi.radius);
-    let x_error = above.div_ceil(&below) + 1;
+    let x_error = units(&pi.radius).ceil().to_integer() + 1;
     let square: BigInt = (&x * &x) >> 400u32;
     let square_error = x_error * 8 + 2;
     // Σ (−x²)ᵏ/(2k)!; with |x| ≤ π what comes after 70 terms is below π¹⁴⁰/140! < 2⁻⁵⁰⁰.
@@ -506,8 +453,8 @@ fn cosine(degrees: &BigRational) -> Ball {
         error += &term_error;
     }
     Ball {
-        middle: over_power(sum, 400),
-        radius: over_power(error, 400),
+        middle: Rational::from(sum).shifted(-400),
+        radius: Rational::from(error).shifted(-400),
     }
 }
 
@@ -535,9 +482,9 @@ fn pi() -> Ball {
     };
     let middle = arctan(5) * 16 - arctan(239) * 4;
     Ball {
-        middle: BigRational::new(middle, one.clone()),
+        middle: Rational::new(middle, one.clone()),
         // Every error at most 16-fold, and the end of both series.
-        radius: BigRational::new(BigInt::from(16 * (errors + 2)), one),
+        radius: Rational::new(BigInt::from(16 * (errors + 2)), one),
     }
 }
 
@@ -545,8 +492,8 @@ fn pi() -> Ball {
 mod tests {
     use super::*;
 
-    fn exact(x: f64) -> BigRational {
-        BigRational::from_float(x).unwrap()
+    fn exact(x: f64) -> Rational {
+        Rational::from_float(x).unwrap()
     }
 
     /// What vanishes in the end vanishes exactly.
@@ -575,7 +522,7 @@ mod tests {
 
     #[test]
     fn a_rounded_ball_holds_the_one_before() {
-        let ratio = |above: i64, below: i64| BigRational::new(above.into(), below.into());
+        let ratio = |above: i64, below: i64| Rational::new(above.into(), below.into());
         let tiny = exact(2f64.powi(-400));
         for middle in [
             ratio(1, 3),
@@ -586,11 +533,8 @@ mod tests {
             ratio(1, 7) * exact(2f64.powi(-900)),
         ] {
             for radius in [tiny.clone(), ratio(1, 3), ratio(1, 1 << 40)] {
-                // Not in lowest terms.
-                let six = BigInt::from(6);
-                let raw = BigRational::new_raw(middle.numer() * &six, middle.denom() * &six);
                 let ball = Ball {
-                    middle: raw,
+                    middle: middle.clone(),
                     radius: radius.clone(),
                 };
                 let ball = ball.rounded();
@@ -601,11 +545,6 @@ mod tests {
                 // By few digits more; about zero by a number that is tiny.
                 let more = most + exact(2f64.powi(-380));
                 assert!(ball.radius <= (radius + more) * exact(1.0 + 1e-9));
-                let is_lowest = |x: &BigRational| {
-                    let lowest = BigRational::new(x.numer().clone(), x.denom().clone());
-                    (x.numer(), x.denom()) == (lowest.numer(), lowest.denom())
-                };
-                assert!(is_lowest(&ball.middle) && is_lowest(&ball.radius));
             }
         }
     }
@@ -616,8 +555,8 @@ mod tests {
         // 40 digits, cut off.
         let digits: BigInt = "31415926535897932384626433832795028841971".parse().unwrap();
         let unit = BigInt::from(10).pow(40);
-        assert!(BigRational::new(digits.clone(), unit.clone()) < &pi.middle - &pi.radius);
-        assert!(&pi.middle + &pi.radius < BigRational::new(digits + 1, unit));
+        assert!(Rational::new(digits.clone(), unit.clone()) < &pi.middle - &pi.radius);
+        assert!(&pi.middle + &pi.radius < Rational::new(digits + 1, unit));
     }
 
     #[test]
@@ -627,28 +566,25 @@ mod tests {
         ] {
             let ball = Real::cosine_of_degrees(exact(degrees)).ball();
             let near = degrees.to_radians().cos();
-            assert!(
-                (ball.middle.to_f64().unwrap() - near).abs() < 1e-13,
-                "{degrees}"
-            );
+            assert!((ball.middle.to_f64() - near).abs() < 1e-13, "{degrees}");
             assert!(ball.radius < exact(2f64.powi(-240)));
         }
         // cos 30° squared is 3/4, cos 45° squared 1/2, and cos 72° is (√5 − 1)/4.
         let square = |degrees: i64| {
-            let c = Real::cosine_of_degrees(BigRational::from_integer(degrees.into()));
+            let c = Real::cosine_of_degrees(Rational::from_integer(degrees.into()));
             &c * &c
         };
-        let holds = |ball: Ball, value: BigRational| (ball.middle - value).abs() <= ball.radius;
+        let holds = |ball: Ball, value: Rational| (ball.middle - value).abs() <= ball.radius;
         assert!(holds(square(30).ball(), exact(0.75)));
         assert!(holds(square(45).ball(), exact(0.5)));
         let golden = &(&Real::whole(5).sqrt() - &Real::whole(1)) / &Real::whole(4);
-        let off = &Real::cosine_of_degrees(BigRational::from_integer(72.into())) - &golden;
-        assert!(holds(off.ball(), BigRational::zero()));
+        let off = &Real::cosine_of_degrees(Rational::from_integer(72.into())) - &golden;
+        assert!(holds(off.ball(), Rational::zero()));
         // The addition theorem at 17.3° and 41.9°.
-        let [a, b] = ["173/10", "419/10"].map(|x| x.parse::<BigRational>().unwrap());
+        let [a, b] = [173, 419].map(|tenths| Rational::new(tenths.into(), 10.into()));
         let (cos, sin) = (Real::cosine_of_degrees, Real::sine_of_degrees);
         let product = &(&cos(a.clone()) * &cos(b.clone())) - &(&sin(a.clone()) * &sin(b.clone()));
-        assert!(holds((&product - &cos(a + b)).ball(), BigRational::zero()));
+        assert!(holds((&product - &cos(a + b)).ball(), Rational::zero()));
     }
 
     #[test]

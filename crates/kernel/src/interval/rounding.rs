@@ -48,16 +48,15 @@ pub fn in_range(x: f64) -> bool {
 mod tests {
     use super::*;
     use crate::interval::enclose_rational;
-    use num_rational::BigRational;
-    use num_traits::Zero;
+    use crate::rational::Rational;
     use proptest::prelude::*;
 
     proptest! {
         #[test]
         fn sums_stay_within_gamma(terms in prop::collection::vec((-1e3f64..1e3, -1e3f64..1e3), 1..40)) {
-            let exact = |x: f64| BigRational::from_float(x).unwrap();
+            let exact = |x: f64| Rational::from_float(x).unwrap();
             let (mut sum, mut size) = (0.0f64, 0.0f64);
-            let (mut exact_sum, mut exact_size) = (BigRational::zero(), BigRational::zero());
+            let (mut exact_sum, mut exact_size) = (Rational::zero(), Rational::zero());
             for &(x, y) in &terms {
                 sum = x.mul_add(y, sum);
                 size = x.abs().mul_add(y.abs(), size);

@@ -12,7 +12,7 @@
 //! use krawl::linalg::rstructure::Ordering;
 //! use krawl_lab::rstructure::{Factors, RMatrix, Residue, Structure, hensel};
 //! use num_bigint::BigInt;
-//! use num_rational::BigRational;
+//! use krawl::rational::Rational;
 //!
 //! // A'(0, 0), B'(4, 0), C'(1, 5) are fixed; A, B, C are to be found. Each equation says that
 //! // two points, unknown (their first coordinate's number) or fixed, are at a given distance.
@@ -24,15 +24,15 @@
 //!     (Unknown(0), Unknown(4)), (Unknown(2), Unknown(4)), (Unknown(4), Fixed(1, 5)),
 //! ];
 //! // Squared lengths are chosen so that this is a solution.
-//! let fraction = |a: i64, b: i64| BigRational::new(a.into(), b.into());
+//! let fraction = |a: i64, b: i64| Rational::new(a.into(), b.into());
 //! let solution = [
 //!     fraction(1, 3), fraction(7, 5), fraction(9, 2), fraction(11, 7), fraction(3, 4), fraction(5, 3),
 //! ];
-//! let place = |p: Point, x: &[BigRational]| match p {
+//! let place = |p: Point, x: &[Rational]| match p {
 //!     Unknown(k) => [x[k].clone(), x[k + 1].clone()],
 //!     Fixed(x, y) => [fraction(x, 1), fraction(y, 1)],
 //! };
-//! let squared = |(p, q): (Point, Point), x: &[BigRational]| {
+//! let squared = |(p, q): (Point, Point), x: &[Rational]| {
 //!     let ([a, b], [c, d]) = (place(p, x), place(q, x));
 //!     (&a - &c) * (&a - &c) + (&b - &d) * (&b - &d)
 //! };
@@ -47,7 +47,7 @@
 //! let equations = bars.map(|(p, q)| [unknowns(p), unknowns(q)].concat());
 //! let ordering = Ordering::new(6, &equations, &[0], &[5]).unwrap();
 //! let mut jacobian = RMatrix::<Residue<P>>::zeros(Structure::of(&ordering, &equations));
-//! let whole: Vec<BigRational> = start.iter().map(|x| x.clone().into()).collect();
+//! let whole: Vec<Rational> = start.iter().map(|x| x.clone().into()).collect();
 //! for (e, &(p, q)) in bars.iter().enumerate() {
 //!     for (one, other) in [(p, q), (q, p)] {
 //!         let Unknown(k) = one else { continue };
@@ -79,8 +79,8 @@
 //! ```
 
 use super::{Factors, RMatrix, Residue};
+use krawl::rational::Rational;
 use num_bigint::BigInt;
-use num_rational::BigRational;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 use std::borrow::Borrow;
 
@@ -136,12 +136,12 @@ pub fn to_residue<const M: u64>(x: &BigInt) -> Residue<M> {
 }
 
 /// A fraction modulo p, if p does not divide its denominator.
-pub fn residue(x: &BigRational, p: u64) -> Option<BigInt> {
+pub fn residue(x: &Rational, p: u64) -> Option<BigInt> {
     residue_of_power(x, p, 1)
 }
 
 /// A fraction modulo a power of p, if p does not divide its denominator.
-pub fn residue_of_power(x: &BigRational, p: u64, power: u32) -> Option<BigInt> {
+pub fn residue_of_power(x: &Rational, p: u64, power: u32) -> Option<BigInt> {
     let modulus = BigInt::from(p).pow(power);
     let (mut r, mut next) = (modulus.clone(), modulo(x.denom(), &modulus));
     let (mut s, mut s_next) = (BigInt::zero(), BigInt::one());
@@ -155,7 +155,7 @@ pub fn residue_of_power(x: &BigRational, p: u64, power: u32) -> Option<BigInt> {
 
 /// The fraction a / b with |a|, b ≤ √(m / 2) that is x modulo m; there is at most one (Wang's
 /// reconstruction; Knuth, The Art of Computer Programming 2, 4.5.3, exercise 51).
-pub fn fraction(x: &BigInt, m: &BigInt) -> Option<BigRational> {
+pub fn fraction(x: &BigInt, m: &BigInt) -> Option<Rational> {
     let bound = (m / BigInt::from(2)).sqrt();
     let (mut r, mut next) = (m.clone(), modulo(x, m));
     let (mut s, mut s_next) = (BigInt::zero(), BigInt::one());
@@ -167,7 +167,7 @@ pub fn fraction(x: &BigInt, m: &BigInt) -> Option<BigRational> {
     if s_next.is_zero() || s_next.abs() > bound {
         return None;
     }
-    let found = BigRational::new(next, s_next.clone());
+    let found = Rational::new(next, s_next.clone());
     // In lowest terms already, or it is not congruent to x.
     (found.denom() == &s_next.abs()).then_some(found)
 }
@@ -190,11 +190,11 @@ mod tests {
             (-355, 113),
             (1, 9_998),
         ] {
-            let x = BigRational::new(a.into(), b.into());
+            let x = Rational::new(a.into(), b.into());
             let residue = residue_of_power(&x, 101, 8).unwrap();
             assert_eq!(fraction(&residue, &BigInt::from(101).pow(8)), Some(x));
         }
-        let x = BigRational::new(1.into(), 202.into());
+        let x = Rational::new(1.into(), 202.into());
         assert_eq!(residue(&x, 101), None);
         assert_eq!(to_residue::<7>(&(-1).into()), Residue::new(6));
     }

@@ -4,9 +4,8 @@ use super::scalar::Subtract;
 use super::*;
 use krawl::interval::{Interval, enclose_rational, hull, point};
 use krawl::linalg::rstructure::Ordering;
+use krawl::rational::Rational;
 use nalgebra::{DMatrix, DVector};
-use num_rational::BigRational;
-use num_traits::Zero;
 use proptest::prelude::*;
 
 /// Key unknowns, block sizes, and entries in 1/8 from −8 to 8, diagonally heavy enough to be
@@ -42,8 +41,8 @@ impl Sample {
     }
 
     /// The exact solution by Gauss's elimination; `None` where the matrix is singular.
-    fn exact(&self) -> Option<Vec<BigRational>> {
-        let whole = |x: i64| BigRational::from_integer(x.into());
+    fn exact(&self) -> Option<Vec<Rational>> {
+        let whole = |x: i64| Rational::from_integer(x.into());
         let mut a = self.dense(whole(0), whole);
         let n = a.len();
         for (row, &b) in a.iter_mut().zip(&self.right_side) {

@@ -11,7 +11,7 @@ use crate::equations::{Form, left_side, slopes};
 use crate::interval::{Real, point};
 use crate::linalg::{Linear, linearised, nearest_zero, scaled};
 use crate::random::Random;
-use num_rational::BigRational;
+use crate::rational::Rational;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// More unknowns are not looked at: it would take seconds.
@@ -191,7 +191,7 @@ impl System {
         for (u, unknown) in self.unknowns.iter_mut().enumerate() {
             let place = at[u] * unit.powi(unknown.power);
             let before = self.values[u].enclose().mid() / unit.powi(unknown.power);
-            let exact = BigRational::from_float(place);
+            let exact = Rational::from_float(place);
             if let (true, Some(exact)) = ((at[u] - before).abs() > HARDLY, exact) {
                 (self.values[u], unknown.sketch) = (Real::from(exact), point(place));
                 has_moved[u] = true;
@@ -206,7 +206,7 @@ impl System {
         let rows = self.rows.iter();
         let rows = rows.filter(|row| row.unknowns.iter().any(|&u| has_moved[u]));
         rows.map(|row| {
-            let half = Real::from(BigRational::new(1.into(), 2.into()));
+            let half = Real::from(Rational::new(1.into(), 2.into()));
             let from = row.products.iter().fold(Real::zero(), |sum, p| {
                 let factor = &half * &Real::whole(p.factor.into());
                 &sum + &(&factor * &(&form(p.left) * &form(p.right)))

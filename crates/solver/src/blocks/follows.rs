@@ -12,10 +12,9 @@
 
 use super::Row;
 use crate::interval::Real;
+use crate::rational::Rational;
 use crate::system::Term;
 use num_bigint::BigInt;
-use num_rational::BigRational;
-use num_traits::{One, Zero};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Larger eliminations are not made: nothing is said then.
@@ -25,21 +24,21 @@ const MOST: usize = 600;
 type Monomial = Vec<usize>;
 
 /// A polynomial.
-type Polynomial = BTreeMap<Monomial, BigRational>;
+type Polynomial = BTreeMap<Monomial, Rational>;
 
 /// An equation that holds.
 #[derive(Debug, Clone)]
 pub struct Given {
     left: Polynomial,
     /// Its right-hand side, if that is a constant ratio and the left-hand side linear.
-    constant: Option<BigRational>,
+    constant: Option<Rational>,
 }
 
 /// How an equation follows.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Combination {
     /// The equations i, by their places among those given, with their factors.
-    pub sum: Vec<(usize, BigRational)>,
+    pub sum: Vec<(usize, Rational)>,
     /// The equations k, which must keep their right-hand sides.
     pub kept: BTreeSet<usize>,
 }
@@ -58,14 +57,14 @@ impl Given {
     /// An unknown that is held at a number.
     pub fn held(unknown: usize, at: &Real) -> Self {
         Given {
-            left: BTreeMap::from([(vec![unknown], BigRational::one())]),
+            left: BTreeMap::from([(vec![unknown], Rational::one())]),
             constant: at.as_rational().cloned(),
         }
     }
 }
 
 /// The value of a right-hand side that is a constant ratio.
-fn constant(right: &[Real]) -> Option<BigRational> {
+fn constant(right: &[Real]) -> Option<Rational> {
     let (first, rest) = right.split_first()?;
     let stays = rest.iter().all(Real::is_zero);
     first.as_rational().filter(|_| stays).cloned()
@@ -75,14 +74,14 @@ fn constant(right: &[Real]) -> Option<BigRational> {
 fn polynomial(products: &[Term]) -> Polynomial {
     let mut out = Polynomial::new();
     for (monomial, factor) in products.iter().flat_map(|p| p.multiplied_out()) {
-        let factor = BigRational::new(BigInt::from(factor), 2.into());
+        let factor = Rational::new(BigInt::from(factor), 2.into());
         add(&mut out, monomial, &factor);
     }
     out
 }
 
-fn add(to: &mut Polynomial, monomial: Monomial, factor: &BigRational) {
-    let entry = to.entry(monomial).or_insert_with(BigRational::zero);
+fn add(to: &mut Polynomial, monomial: Monomial, factor: &Rational) {
+    let entry = to.entry(monomial).or_insert_with(Rational::zero);
     *entry += factor;
     let is_gone = entry.is_zero();
     if is_gone {
@@ -94,17 +93,17 @@ fn add(to: &mut Polynomial, monomial: Monomial, factor: &BigRational) {
 #[derive(Debug, Clone)]
 struct Made {
     polynomial: Polynomial,
-    of: BTreeMap<(usize, Option<usize>), BigRational>,
+    of: BTreeMap<(usize, Option<usize>), Rational>,
 }
 
 impl Made {
     /// Takes a multiple of another away.
-    fn reduce(&mut self, other: &Made, factor: &BigRational) {
+    fn reduce(&mut self, other: &Made, factor: &Rational) {
         for (monomial, value) in &other.polynomial {
             add(&mut self.polynomial, monomial.clone(), &-(factor * value));
         }
         for (source, value) in &other.of {
-            *self.of.entry(*source).or_insert_with(BigRational::zero) -= factor * value;
+            *self.of.entry(*source).or_insert_with(Rational::zero) -= factor * value;
         }
         self.of.retain(|_, value| !value.is_zero());
     }
@@ -117,7 +116,7 @@ pub fn combination(row: &Row, given: &[Given]) -> Option<Combination> {
     for (index, one) in given.iter().enumerate() {
         made.push(Made {
             polynomial: one.left.clone(),
-            of: BTreeMap::from([((index, None), BigRational::one())]),
+            of: BTreeMap::from([((index, None), Rational::one())]),
         });
     }
     // Unknowns that stand beside another one in a product.
@@ -145,7 +144,7 @@ pub fn combination(row: &Row, given: &[Given]) -> Option<Combination> {
             add(&mut polynomial, vec![x], &-constant);
             made.push(Made {
                 polynomial,
-                of: BTreeMap::from([((index, Some(x)), BigRational::one())]),
+                of: BTreeMap::from([((index, Some(x)), Rational::one())]),
             });
         }
     }
@@ -207,13 +206,13 @@ impl Combination {
         &self,
         right: &[Real],
         of: impl Fn(usize) -> Vec<Real>,
-        before: impl Fn(usize) -> Option<&'r BigRational>,
+        before: impl Fn(usize) -> Option<&'r Rational>,
     ) -> bool {
         let is_kept = |&k: &usize| constant(&of(k)).as_ref() == before(k);
         if !self.kept.iter().all(is_kept) {
             return false;
         }
-        let mut terms: Vec<(BigRational, Vec<Real>)> = vec![(-BigRational::one(), right.to_vec())];
+        let mut terms: Vec<(Rational, Vec<Real>)> = vec![(-Rational::one(), right.to_vec())];
         terms.extend(self.sum.iter().map(|(i, factor)| (factor.clone(), of(*i))));
         let longest = terms.iter().map(|(_, right)| right.len()).max();
         (0..longest.unwrap_or(0)).all(|power| {
@@ -238,7 +237,7 @@ impl Combination {
         &self,
         right: &[Real],
         of: impl Fn(usize) -> Vec<Real>,
-        before: impl Fn(usize) -> Option<&'r BigRational>,
+        before: impl Fn(usize) -> Option<&'r Rational>,
     ) -> bool {
         let is_kept = |&k: &usize| constant(&of(k)).as_ref() == before(k);
         if !self.kept.iter().all(is_kept) {
@@ -258,9 +257,9 @@ fn number(right: &[Real]) -> Real {
 }
 
 /// Whether a sum of multiples of numbers is zero; numbers that are no ratios are told apart by how they are written.
-fn is_zero<'r>(terms: impl Iterator<Item = (&'r BigRational, &'r Real)>) -> bool {
-    let mut ratio = BigRational::zero();
-    let mut others: Vec<(&Real, BigRational)> = Vec::new();
+fn is_zero<'r>(terms: impl Iterator<Item = (&'r Rational, &'r Real)>) -> bool {
+    let mut ratio = Rational::zero();
+    let mut others: Vec<(&Real, Rational)> = Vec::new();
     for (factor, number) in terms {
         match number.as_rational() {
             Some(value) => ratio += factor * value,
@@ -275,7 +274,7 @@ fn is_zero<'r>(terms: impl Iterator<Item = (&'r BigRational, &'r Real)>) -> bool
 
 impl Given {
     /// Its right-hand side, if it may be multiplied by unknowns.
-    pub fn constant(&self) -> Option<&BigRational> {
+    pub fn constant(&self) -> Option<&Rational> {
         self.constant.as_ref()
     }
 }

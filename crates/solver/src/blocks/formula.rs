@@ -268,10 +268,10 @@ fn contracted(rows: &[Local], solution: Vec<Number>) -> Vec<Number> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use num_rational::BigRational;
+    use crate::rational::Rational;
 
     fn ratio(a: i64, b: i64) -> Number {
-        Number::exactly(BigRational::new(a.into(), b.into()))
+        Number::exactly(Rational::new(a.into(), b.into()))
     }
 
     /// x² + y² = r² about (cx, cy).
@@ -325,8 +325,8 @@ mod tests {
     #[test]
     fn a_sense_is_certain_or_not_said() {
         let tiny = |sign: i64| {
-            let far = BigRational::new(sign.into(), num_bigint::BigInt::from(10).pow(40));
-            Number::exactly(BigRational::from_integer(3.into()) + far)
+            let far = Rational::new(sign.into(), num_bigint::BigInt::from(10).pow(40));
+            Number::exactly(Rational::from_integer(3.into()) + far)
         };
         // (x − 3)²: the derivative at 3 ± 10⁻⁴⁰, which no float tells from 3.
         let rows = [Local {

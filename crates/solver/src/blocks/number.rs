@@ -2,8 +2,7 @@
 
 use crate::equations::ring;
 use crate::interval::{Interval, Real, enclose_rational};
-use num_rational::BigRational;
-use num_traits::{Signed, Zero};
+use crate::rational::Rational;
 
 /// Ratios with longer numerators or denominators are not kept.
 const MOST_BITS: u64 = 512;
@@ -14,7 +13,7 @@ const LARGEST: u64 = 1000;
 /// A number: where it is, and what it is if that is a ratio of moderate size.
 #[derive(Debug, Clone)]
 pub struct Number {
-    exact: Option<BigRational>,
+    exact: Option<Rational>,
     within: Interval,
 }
 
@@ -22,7 +21,7 @@ ring!(Number, |number: i64| Number::halves(2 * number));
 
 impl Number {
     /// A ratio.
-    pub fn exactly(value: BigRational) -> Self {
+    pub fn exactly(value: Rational) -> Self {
         let (above, below) = (value.numer().bits(), value.denom().bits());
         Number {
             within: match above > below + LARGEST {
@@ -35,7 +34,7 @@ impl Number {
 
     /// A whole number or a half of one.
     pub fn halves(count: i64) -> Self {
-        Self::exactly(BigRational::new(count.into(), 2.into()))
+        Self::exactly(Rational::new(count.into(), 2.into()))
     }
 
     /// One number of an interval.
@@ -78,7 +77,7 @@ impl Number {
 
     /// Whether it is known to be zero.
     pub fn is_zero(&self) -> bool {
-        self.exact.as_ref().is_some_and(Zero::is_zero)
+        self.exact.as_ref().is_some_and(Rational::is_zero)
     }
 
     /// −1, 0 or 1; `None` where that is not known.
@@ -95,7 +94,7 @@ impl Number {
     fn combine(
         &self,
         other: &Self,
-        exact: impl Fn(&BigRational, &BigRational) -> BigRational,
+        exact: impl Fn(&Rational, &Rational) -> Rational,
         within: impl Fn(Interval, Interval) -> Interval,
     ) -> Self {
         match (&self.exact, &other.exact) {
@@ -136,7 +135,7 @@ impl Number {
         if value.is_negative() {
             return None;
         }
-        let root = BigRational::new(value.numer().sqrt(), value.denom().sqrt());
+        let root = Rational::new(value.numer().sqrt(), value.denom().sqrt());
         Some(match &root * &root == *value {
             true => Self::exactly(root),
             false => Self::within(Real::from(value.clone()).sqrt().enclose()),

@@ -7,11 +7,11 @@ use crate::constraint::{Entry, Equation, Form, Nonzero, Product, value};
 use crate::interval::{Interval, Real, hull, point};
 use crate::order::InOrder;
 use crate::places::array;
+use crate::rational::Rational;
 use crate::system::{Homotopy, Part};
 use crate::track::arc::{ArcEnd, Figure};
 use crate::track::certified::{Relation, arcs, prove_figure, track};
 use crate::track::{Control, FigureBox, FiguresSeen, Options, Space, Status};
-use num_rational::BigRational;
 use std::collections::HashMap;
 
 /// A block is followed over so many tubes and then given up: those that came to so many ran away.
@@ -269,7 +269,7 @@ fn by(cut: &Cut, row: &super::Row, values: &[Option<Number>]) -> Result<Real, St
         growth += curve.enclose().mid().abs();
     }
     let delta = BEND * squares.sqrt() * cut.unit + 2.0 * growth;
-    BigRational::from_float(delta)
+    Rational::from_float(delta)
         .map(Real::from)
         .ok_or_else(|| "its lengths are too large".to_owned())
 }

@@ -11,11 +11,10 @@ use crate::interval::vector::Vector;
 use crate::interval::{Interval, ZERO, enclose};
 use crate::places::Each as _;
 use crate::problem::{Problem, Target};
+use crate::rational::Rational;
 use crate::system::told::range;
 use crate::system::{Placement, typical_length};
 use num_bigint::BigInt;
-use num_rational::BigRational;
-use num_traits::{One, Signed, Zero};
 
 /// What the exact numbers say.
 pub enum Step {
@@ -31,12 +30,12 @@ pub enum Step {
         /// The point.
         point: usize,
         /// Its squared height over the others would be this.
-        height: BigRational,
+        height: Rational,
     },
 }
 
 /// The squared distance of two points, if the problem gives it.
-fn square(problem: &Problem, a: usize, b: usize) -> Option<BigRational> {
+fn square(problem: &Problem, a: usize, b: usize) -> Option<Rational> {
     let is_it = |ends: [usize; 2]| ends == [a, b] || ends == [b, a];
     let mut distances = problem.distances.iter();
     let distance = distances.find(|distance| is_it(distance.points))?;
@@ -55,8 +54,8 @@ pub fn step(problem: &Problem) -> Option<Step> {
     }
     let new = (0..=d).find(|p| !base.contains(p))?;
     let of = |a: usize, b: usize| square(problem, a, b);
-    let half = |x: BigRational| x / BigRational::from(BigInt::from(2));
-    let root = |x: &BigRational| range(x).sqrt();
+    let half = |x: Rational| x / Rational::from(BigInt::from(2));
+    let root = |x: &Rational| range(x).sqrt();
     let (a, r) = (of(base[0], base[1])?, of(base[0], new)?);
     let q1 = half(&r - of(base[1], new)? + &a);
     let mut points = vec![[ZERO; 3]; d + 1];
@@ -76,7 +75,7 @@ pub fn step(problem: &Problem) -> Option<Step> {
         points[base[2]][0] = range(&c) / root(&a);
         points[base[2]][1] = root(&(&delta / &a));
         points[new][1] = range(&(&q2 * &a - &q1 * &c)) / across;
-        let two = BigRational::one() + BigRational::one();
+        let two = Rational::one() + Rational::one();
         let off = &q1 * &q1 * &b - two * &q1 * &q2 * &c + &q2 * &q2 * &a;
         let n = &r * &delta - off;
         (delta, n)
@@ -161,7 +160,7 @@ fn in_one_plane(problem: &Problem, [i, j]: [usize; 2], turned: bool) -> Option<V
             places[k][0] = range(&a).sqrt();
             for p in [i, j] {
                 let (r, s) = (square(problem, h, p)?, square(problem, k, p)?);
-                let q = (&r - s + &a) / BigRational::from(BigInt::from(2));
+                let q = (&r - s + &a) / Rational::from(BigInt::from(2));
                 let height = r - &q * &q / &a;
                 if height.is_negative() {
                     return None;

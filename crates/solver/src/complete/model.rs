@@ -479,18 +479,18 @@ pub fn rotation<const S: usize, const M: usize>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use num_rational::BigRational;
-    use num_traits::{One, Signed, Zero};
+    use crate::rational::Rational;
+    use num_traits::Zero;
     use proptest::prelude::*;
 
     type Two = Model<2, 6>;
 
-    fn exact(x: f64) -> BigRational {
-        BigRational::from_float(x).unwrap()
+    fn exact(x: f64) -> Rational {
+        Rational::from_float(x).unwrap()
     }
 
     /// The polynomial at a point, exactly.
-    fn polynomial<const S: usize, const M: usize>(f: &Model<S, M>, u: &[f64]) -> BigRational {
+    fn polynomial<const S: usize, const M: usize>(f: &Model<S, M>, u: &[f64]) -> Rational {
         let mut sum = exact(f.c[0]);
         let mut q = 1 + S;
         for i in 0..S {
@@ -506,7 +506,7 @@ mod tests {
     fn encloses<const S: usize, const M: usize>(
         f: &Model<S, M>,
         u: &[f64],
-        value: &BigRational,
+        value: &Rational,
     ) -> bool {
         (polynomial(f, u) - value).abs() <= exact(f.r)
     }
@@ -520,7 +520,7 @@ mod tests {
     }
 
     /// A value that the model may stand for at u: the polynomial and part of the remainder.
-    fn value(f: &Two, u: &[f64], part: f64) -> BigRational {
+    fn value(f: &Two, u: &[f64], part: f64) -> Rational {
         polynomial(f, u) + exact(f.r) * exact(part)
     }
 
@@ -547,7 +547,7 @@ mod tests {
             prop_assert!(encloses(&sum, &u, &(&near * &y)));
             let numbers = (number, Number { mid: shift, rad: 0.001 });
             let (a, b) = (near.clone(), exact(shift) + exact(0.001) * exact(part[0]));
-            let holds = |n: Number, x: &BigRational| (exact(n.mid) - x).abs() <= exact(n.rad);
+            let holds = |n: Number, x: &Rational| (exact(n.mid) - x).abs() <= exact(n.rad);
             prop_assert!(holds(numbers.0.times(numbers.1), &(&a * &b)));
             prop_assert!(holds(numbers.0.plus(-0.5, numbers.1), &(&a - &b * exact(0.5))));
             let (a, b) = (f.factor(), g.factor());
@@ -565,7 +565,7 @@ mod tests {
             if range.lo > 0.0 {
                 let over = f.reciprocal(range);
                 if over.r.is_finite() {
-                    prop_assert!(encloses(&over, &u, &(BigRational::one() / &x)));
+                    prop_assert!(encloses(&over, &u, &(Rational::one() / &x)));
                 }
                 let root = f.square_root(range);
                 if root.r.is_finite() {
@@ -586,9 +586,9 @@ mod tests {
         ) {
             let pair: [Two; 2] = rotation(1, middle, radius, turned);
             let t = exact(middle) + exact(radius) * exact(u);
-            let below = BigRational::one() + &t * &t;
+            let below = Rational::one() + &t * &t;
             let z = [
-                (BigRational::one() - &t * &t) / &below,
+                (Rational::one() - &t * &t) / &below,
                 (&t + &t) / &below,
             ];
             let wanted = if turned { [-z[1].clone(), z[0].clone()] } else { z };

@@ -15,7 +15,6 @@ use crate::order::InOrder;
 use crate::places::array;
 use crate::problem::Problem;
 use crate::track::{Solution, relative_width};
-use num_traits::ToPrimitive;
 use serde::{Deserialize, Serialize};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::Thread;
@@ -371,7 +370,7 @@ impl Complete {
                     let names = points.iter().map(|&p| problem.points[p].name.as_str());
                     names.collect::<Vec<_>>().join(", ")
                 };
-                let squared = height.to_f64().unwrap_or(f64::NEG_INFINITY);
+                let squared = height.to_f64();
                 result.reason = Some(format!(
                     "no figure has these distances: {} has no place, as the square of its height over {} would be {squared:.1e}, computed exactly",
                     of(&[point]),

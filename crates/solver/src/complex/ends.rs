@@ -28,9 +28,9 @@ use crate::interval::complex::Complex;
 use crate::interval::rounding::{UNDERFLOW, in_range, largest, round_up};
 use crate::interval::{DoubleDouble, gamma_double};
 use crate::places::Each as _;
+use crate::rational::Rational;
 use crate::system::Right;
 use crate::track::arc::Figure;
-use num_rational::BigRational;
 
 type Z = Complex<DoubleDouble>;
 
@@ -158,8 +158,8 @@ impl EndProver {
 
     /// F(x), rounded, and how far each exact value may be from that, in |Re| + |Im|.
     fn residual(&self, x: &[Z]) -> Result<(Vec<Z>, Vec<f64>), String> {
-        let exact = |x: &DoubleDouble| -> Option<BigRational> {
-            Some(BigRational::from_float(x.hi)? + BigRational::from_float(x.lo)?)
+        let exact = |x: &DoubleDouble| -> Option<Rational> {
+            Some(Rational::from_float(x.hi)? + Rational::from_float(x.lo)?)
         };
         let exactly = |z: &Z| -> Option<Exact> {
             Some(Exact {
@@ -173,7 +173,7 @@ impl EndProver {
         let at = at
             .filter(|_| are_in_range)
             .ok_or("Newton's method does not settle at the path's end")?;
-        let half = BigRational::new(1.into(), 2.into());
+        let half = Rational::new(1.into(), 2.into());
         let (mut values, mut errors) = (Vec::new(), Vec::new());
         for (e, (wanted, radius)) in self.wanted.iter().enumerate() {
             let twice = self.system.evaluate(e, &at);
@@ -305,7 +305,7 @@ mod tests {
             };
             let rights = segment(&figure.parameters, &figure.parameters, None);
             let parts = |value: &exact::Exact| [value.re.clone(), value.im.clone()];
-            let exactly: Vec<BigRational> = figure.values.iter().flat_map(parts).collect();
+            let exactly: Vec<Rational> = figure.values.iter().flat_map(parts).collect();
             // From a point that is wrong in the eighth digit.
             let near = exactly
                 .iter()
@@ -316,9 +316,9 @@ mod tests {
             for ((x, middle), radius) in
                 exactly.iter().zip(found.middle()).zip(&found.figure.radius)
             {
-                let exact = |x: f64| BigRational::from_float(x).unwrap();
+                let exact = |x: f64| Rational::from_float(x).unwrap();
                 let off = x - exact(middle.hi) - exact(middle.lo);
-                assert!(num_traits::Signed::abs(&off) <= exact(*radius));
+                assert!(off.abs() <= exact(*radius));
             }
         }
     }

@@ -2,17 +2,16 @@
 
 use crate::equations::ring;
 use crate::interval::Real;
+use crate::rational::Rational;
 use num_bigint::BigInt;
-use num_rational::BigRational;
-use num_traits::Zero;
 
 /// A complex number whose parts are ratios.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Exact {
     /// The real part.
-    pub re: BigRational,
+    pub re: Rational,
     /// The imaginary part.
-    pub im: BigRational,
+    pub im: Rational,
 }
 
 ring!(Exact, Exact::whole);
@@ -21,16 +20,16 @@ impl Exact {
     /// Zero.
     pub fn zero() -> Self {
         Exact {
-            re: BigRational::zero(),
-            im: BigRational::zero(),
+            re: Rational::zero(),
+            im: Rational::zero(),
         }
     }
 
     /// A whole number.
     pub fn whole(value: i64) -> Self {
         Exact {
-            re: BigRational::from_integer(BigInt::from(value)),
-            im: BigRational::zero(),
+            re: Rational::from_integer(BigInt::from(value)),
+            im: Rational::zero(),
         }
     }
 
@@ -92,8 +91,8 @@ impl Exact {
         if self.bits() <= SHORT {
             return self;
         }
-        let scale = BigRational::from_integer(BigInt::from(1u128 << 100));
-        let round = |x: BigRational| (x * &scale).round() / &scale;
+        let scale = Rational::from_integer(BigInt::from(1u128 << 100));
+        let round = |x: Rational| (x * &scale).round() / &scale;
         Exact {
             re: round(self.re),
             im: round(self.im),
@@ -136,10 +135,10 @@ impl Random {
     }
 
     /// Between −1 and 1.
-    fn ratio(&mut self) -> BigRational {
+    fn ratio(&mut self) -> Rational {
         let range = 1u64 << (BITS + 1);
         let drawn = (self.bits() % (range + 1)) as i64 - (1 << BITS);
-        BigRational::new(drawn.into(), BigInt::from(1u64 << BITS))
+        Rational::new(drawn.into(), BigInt::from(1u64 << BITS))
     }
 
     /// A complex number, both parts between −1 and 1.
@@ -153,8 +152,8 @@ impl Random {
     /// A real number between −¼ and ¼.
     pub fn nearly_whole(&mut self) -> Exact {
         Exact {
-            re: self.ratio() / BigRational::from_integer(4.into()),
-            im: BigRational::zero(),
+            re: self.ratio() / Rational::from_integer(4.into()),
+            im: Rational::zero(),
         }
     }
 
@@ -163,7 +162,7 @@ impl Random {
         let Exact { re, im } = self.complex();
         Exact {
             re,
-            im: im / BigRational::from_integer(2.into()),
+            im: im / Rational::from_integer(2.into()),
         }
     }
 }
@@ -184,8 +183,8 @@ mod tests {
             assert_eq!(a.plus(&b).minus(&b), a);
         }
         let i = Exact {
-            re: BigRational::zero(),
-            im: BigRational::from_integer(1.into()),
+            re: Rational::zero(),
+            im: Rational::from_integer(1.into()),
         };
         assert_eq!(i.times(&i), Exact::whole(-1));
         assert!(i.over(&Exact::zero()).is_none());

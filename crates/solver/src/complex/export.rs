@@ -2,9 +2,9 @@
 
 use super::system::{Kind, System};
 use crate::interval::Real;
+use crate::rational::Rational;
 use num_bigint::BigInt;
-use num_rational::BigRational;
-use num_traits::{One, Signed, Zero};
+use num_traits::One;
 use std::collections::BTreeMap;
 
 /// A program that reads systems.
@@ -138,16 +138,16 @@ fn names(system: &System) -> Vec<String> {
 
 /// Twice the left-hand side less the right one, or half that where all coefficients stay whole.
 fn polynomial(system: &System, equation: usize) -> Polynomial {
-    let mut sums: BTreeMap<Vec<usize>, BigRational> = BTreeMap::new();
+    let mut sums: BTreeMap<Vec<usize>, Rational> = BTreeMap::new();
     let terms = system.equations[equation].terms.iter();
     for (monomial, factor) in terms.flat_map(|term| term.multiplied_out()) {
-        *sums.entry(monomial).or_insert_with(BigRational::zero) +=
-            BigRational::from_integer(BigInt::from(factor));
+        *sums.entry(monomial).or_insert_with(Rational::zero) +=
+            Rational::from_integer(BigInt::from(factor));
     }
     sums.retain(|_, sum| !sum.is_zero());
     let equation = &system.equations[equation];
     let mut polynomial: Polynomial = sums.into_iter().map(|(m, c)| (m, c.into())).collect();
-    let unit = BigRational::from_float(system.unit.powi(equation.power)).expect("a power of two");
+    let unit = Rational::from_float(system.unit.powi(equation.power)).expect("a power of two");
     let right = match &equation.right {
         Kind::Parameter([re, _]) => re * &Real::from(unit),
         Kind::Fixed(value) => value.re.clone().into(),
@@ -186,7 +186,7 @@ fn number(value: &Real, to: Export) -> Option<String> {
     const DIGITS: u32 = 30;
     let scale = BigInt::from(10).pow(DIGITS);
     let middle = value.ball().middle;
-    let scaled = (middle.abs() * BigRational::from_integer(scale.clone()))
+    let scaled = (middle.abs() * Rational::from_integer(scale.clone()))
         .round()
         .to_integer();
     let sign = if middle.is_negative() { "-" } else { "" };
@@ -227,7 +227,7 @@ mod tests {
                     };
                     let scale = Exact {
                         re: ratio.clone(),
-                        im: BigRational::zero(),
+                        im: Rational::zero(),
                     };
                     let value = monomial
                         .iter()

@@ -24,8 +24,8 @@ use crate::interval::{DoubleDouble, Real};
 use crate::order::InOrder;
 use crate::places::{Each as _, array};
 use crate::problem::{Item, Problem, Shape, Target};
+use crate::rational::Rational;
 use crate::system::Term;
-use num_rational::BigRational;
 
 /// Where the unknowns stand: coordinates of points first, then these.
 const HEIGHT: usize = 0;
@@ -108,7 +108,7 @@ fn given(problem: &Problem) -> Option<Given> {
 }
 
 /// The product of the directions of two lines of their own in the sketch.
-fn product_in_sketch(problem: &Problem, a: usize, b: usize) -> BigRational {
+fn product_in_sketch(problem: &Problem, a: usize, b: usize) -> Rational {
     let direction = |object: usize| match &problem.objects[object].shape {
         Shape::FreeLine { direction, .. } => direction.each_ref().map(|x| x.value().clone()),
         _ => unreachable!("only lines of their own are asked for"),
@@ -434,7 +434,7 @@ pub fn length(problem: &Problem, object: usize) -> Option<DoubleDouble> {
     let Shape::FreeLine { direction, .. } = &problem.objects[object].shape else {
         return None;
     };
-    let square: BigRational = direction.iter().map(|x| x.value() * x.value()).sum();
+    let square: Rational = direction.iter().map(|x| x.value() * x.value()).sum();
     Some(Real::from(square).sqrt().double().0)
 }
 

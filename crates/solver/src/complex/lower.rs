@@ -10,9 +10,8 @@ use crate::equations::Form;
 use crate::interval::Real;
 use crate::places::array;
 use crate::problem::{Problem, Target, list};
+use crate::rational::Rational;
 use crate::system::{GaugeError, Homotopy, Term};
-use num_rational::BigRational;
-use num_traits::Signed;
 
 /// Why a problem has no complex system.
 #[derive(Clone, PartialEq, thiserror::Error)]
@@ -299,7 +298,7 @@ fn place(
     };
     let squared = |e: usize| problem.distances[e].target.squared();
     let mut put = |e: usize, unknown: usize, value: Real| {
-        let per_unit = BigRational::from_float(1.0 / homotopy.unit).expect("a power of two");
+        let per_unit = Rational::from_float(1.0 / homotopy.unit).expect("a power of two");
         let equation = &mut equations[e];
         equation.terms = vec![Term::new(
             2,
@@ -322,7 +321,7 @@ fn place(
             let (u, v, w) = (squared(ab), squared(ac), squared(bc));
             let twice = &u + &v - &w;
             // Sixteen times the squared area.
-            let area = BigRational::from_integer(4.into()) * &u * &v - &twice * &twice;
+            let area = Rational::from_integer(4.into()) * &u * &v - &twice * &twice;
             if !area.is_positive() || !u.is_positive() {
                 return None;
             }
@@ -355,12 +354,12 @@ fn constrained_sign(homotopy: &Homotopy) -> Option<String> {
 
 /// Whether a triangle with these sides is no degenerate one: no complex figure of it is isotropic.
 fn is_proper(problem: &Problem, fixed: &[usize]) -> bool {
-    let squared = |a: usize, b: usize| -> Option<BigRational> {
+    let squared = |a: usize, b: usize| -> Option<Rational> {
         let joins = |d: &&crate::problem::Distance| d.points == [a, b] || d.points == [b, a];
         let distance = problem.distances.iter().find(joins)?;
         Some(distance.target.squared())
     };
-    let zero = BigRational::from_integer(0.into());
+    let zero = Rational::from_integer(0.into());
     match *fixed {
         [a, b] => squared(a, b).is_some_and(|s| s != zero),
         [a, b, c] => {
@@ -369,7 +368,7 @@ fn is_proper(problem: &Problem, fixed: &[usize]) -> bool {
             };
             // Sixteen times the squared area.
             let twice = &u + &v - &w;
-            let four = BigRational::from_integer(4.into());
+            let four = Rational::from_integer(4.into());
             u != zero && four * &u * &v != &twice * &twice
         }
         _ => false,
@@ -378,7 +377,7 @@ fn is_proper(problem: &Problem, fixed: &[usize]) -> bool {
 
 /// Half the square of a target.
 pub(super) fn half_square(target: &Target) -> Real {
-    (target.squared() / BigRational::from_integer(2.into())).into()
+    (target.squared() / Rational::from_integer(2.into())).into()
 }
 
 /// What a right-hand side is: zero throughout, or a dimension.
@@ -406,7 +405,7 @@ pub(super) fn in_unit(right: Kind, unit: f64, power: i32) -> Kind {
     let Kind::Parameter(value) = right else {
         return right;
     };
-    let per_unit = BigRational::from_float(unit.powi(-power)).expect("a unit is a power of two");
+    let per_unit = Rational::from_float(unit.powi(-power)).expect("a unit is a power of two");
     let per_unit = Real::from(per_unit);
     Kind::Parameter(value.map(|part| &part * &per_unit))
 }

@@ -5,8 +5,9 @@ use super::exact::{Exact, Parameter};
 use super::follow::prove_all;
 use super::monodromy::Fibre;
 use super::system::{System, segment};
-use num_rational::BigRational;
-use num_traits::Signed;
+use crate::rational::Rational;
+use num_bigint::BigInt;
+use num_traits::Zero;
 use serde::{Deserialize, Serialize};
 
 /// What [`Template::read`] takes and [`Template::write`] makes.
@@ -142,17 +143,15 @@ impl Template {
             let what = format!("parameters and solutions of {n} unknowns are wanted");
             return Err(TemplateError::Format(what));
         }
-        let number = |text: &String| -> Result<BigRational, TemplateError> {
+        let number = |text: &String| -> Result<Rational, TemplateError> {
             let bad = || TemplateError::Format(format!("`{text}` is no ratio of moderate size"));
-            // A denominator of zero would be a panic.
-            let below = text.split('/').nth(1);
-            if text.len() > LONGEST
-                || below.is_some_and(|d| d.trim_matches(['0', '+', '-']).is_empty())
-            {
+            let (above, below) = text.split_once('/').unwrap_or((text, "1"));
+            let whole = |digits: &str| digits.parse::<BigInt>().map_err(|_| bad());
+            if text.len() > LONGEST || whole(below)?.is_zero() {
                 return Err(bad());
             }
-            let number: BigRational = text.parse().map_err(|_| bad())?;
-            let is_moderate = number.abs() <= BigRational::from_integer(LARGEST.into());
+            let number = Rational::new(whole(above)?, whole(below)?);
+            let is_moderate = number.abs() <= Rational::from_integer(LARGEST.into());
             is_moderate.then_some(number).ok_or_else(bad)
         };
         let mut parameters = Vec::with_capacity(n);

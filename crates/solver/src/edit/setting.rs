@@ -7,8 +7,7 @@ use crate::interval::{Interval, Real, point};
 use crate::places::Each as _;
 use crate::problem::expression::names;
 use crate::problem::{Constraint, Decimal, DecimalError, Item, Problem, Shape, Target};
-use num_rational::BigRational;
-use num_traits::Signed;
+use crate::rational::Rational;
 
 /// A dimension and its new value.
 #[derive(Debug, Clone, PartialEq)]
@@ -124,13 +123,13 @@ impl Setting {
             }
             Measure::Degrees
                 if !(value.is_positive()
-                    && *value.value() < BigRational::from_integer(180.into())) =>
+                    && *value.value() < Rational::from_integer(180.into())) =>
             {
                 return Err(SettingError::NotAnAngle(name, value.to_string()));
             }
             Measure::Slope
                 if !(value.is_positive()
-                    && *value.value() <= BigRational::from_integer(90.into())) =>
+                    && *value.value() <= Rational::from_integer(90.into())) =>
             {
                 return Err(SettingError::NotASlope(name, value.to_string()));
             }
@@ -221,7 +220,7 @@ impl Setting {
         let (Target::Length(from), Target::Length(to)) = (&before.target, &self.target) else {
             return linear(before.value(), self.value());
         };
-        let led = |of: fn(BigRational) -> Real| {
+        let led = |of: fn(Rational) -> Real| {
             let [from, to] = [from, to].each(|x| of(x.value().clone()).enclose());
             linear(from, to)
         };
@@ -298,7 +297,7 @@ impl Setting {
             if measure(problem, setting.index) == Measure::Turn
                 && let (Target::Length(now), Target::Length(then)) =
                     (Setting::now(problem, setting.index).target, &setting.target)
-                && (then.value() - now.value()).abs() > BigRational::from_integer(MOST_TURN.into())
+                && (then.value() - now.value()).abs() > Rational::from_integer(MOST_TURN.into())
             {
                 let name = problem.dimension_name(setting.index);
                 let (now, then) = (now.to_string(), then.to_string());
@@ -328,8 +327,8 @@ pub(super) fn is_led_alone(problem: &Problem, name: &str) -> bool {
 }
 
 /// What a turn is at t on its way: θ and four times the argument of `1 + (e^iΔ/4 − 1) t`, as its equations lead it.
-fn turned(from: &BigRational, to: &BigRational, t: Interval) -> Interval {
-    let quarter = (to - from) / BigRational::from_integer(4.into());
+fn turned(from: &Rational, to: &Rational, t: Interval) -> Interval {
+    let quarter = (to - from) / Rational::from_integer(4.into());
     let cosine = Real::cosine_of_degrees(quarter.clone()).enclose();
     let sine = Real::sine_of_degrees(quarter).enclose();
     let (x, y) = (point(1.0) + (cosine - point(1.0)) * t, sine * t);

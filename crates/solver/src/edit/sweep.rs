@@ -4,10 +4,10 @@ use super::{Edited, Ending, Session, Setting};
 use crate::blocks::Account;
 use crate::interval::Interval;
 use crate::problem::{Decimal, Target};
+use crate::rational::Rational;
 use crate::system::Located;
 use crate::track::Control;
 use num_bigint::BigInt;
-use num_rational::BigRational;
 
 /// The figure at one value of the dimension.
 #[derive(Debug, Clone, PartialEq)]
@@ -92,11 +92,11 @@ fn between(from: &Decimal, to: &Decimal, k: usize, n: usize) -> Decimal {
     if k == n || from.value() == to.value() {
         return to.clone();
     }
-    let part = BigRational::new(BigInt::from(k), BigInt::from(n));
+    let part = Rational::new(BigInt::from(k), BigInt::from(n));
     let exact = from.value() + (to.value() - from.value()) * part;
     let top = from.to_f64().abs().max(to.to_f64().abs());
     let digits = 17 - top.log10().floor() as i32;
-    let power = BigRational::from_integer(BigInt::from(10)).pow(digits);
+    let power = Rational::from_integer(BigInt::from(10)).pow(digits);
     let scaled = (exact * power).round().to_integer();
     let text = format!("{scaled}e{}", -digits);
     text.parse().unwrap_or_else(|_| from.clone())

@@ -8,9 +8,8 @@ use crate::order::InOrder;
 use crate::places::Each as _;
 use crate::problem::expression::{evaluate, with_set};
 use crate::problem::{Constraint, Decimal, Item, Problem, Target};
+use crate::rational::Rational;
 use crate::statement::nearest;
-use num_rational::BigRational;
-use num_traits::Signed;
 use std::collections::{HashMap, HashSet};
 
 /// What was asked for.
@@ -167,7 +166,7 @@ impl Asked {
 
     /// The first angle that is set to 0 or 180 degrees and whole turns, or is computed and goes beyond these, by index in `given`: the problem.
     pub fn straight(&self, given: &Problem) -> Option<usize> {
-        let straight = BigRational::from_integer(180.into());
+        let straight = Rational::from_integer(180.into());
         let is_so = |setting: &&Setting| {
             let c = setting.index.checked_sub(given.distances.len());
             let is_angle = c.is_some_and(|c| given.constraints[c].kind == "angles");
@@ -175,8 +174,7 @@ impl Asked {
                 Target::Length(degrees) if is_angle => {
                     let turns = degrees.value() / &straight;
                     // What is computed is not written as another angle.
-                    let is_beyond =
-                        turns.is_negative() || turns > BigRational::from_integer(1.into());
+                    let is_beyond = turns.is_negative() || turns > Rational::from_integer(1.into());
                     turns.is_integer() || degrees.expression().is_some() && is_beyond
                 }
                 _ => false,
@@ -239,7 +237,7 @@ fn with_turns(
 }
 
 fn is_beyond(degrees: &Decimal) -> bool {
-    let straight = BigRational::from_integer(180.into());
+    let straight = Rational::from_integer(180.into());
     !degrees.is_positive() || *degrees.value() >= straight
 }
 
@@ -262,7 +260,7 @@ fn as_turn(problem: &Problem, index: usize) -> Option<Constraint> {
 /// What an angle names, so that the turn from the first to the second is that angle in the drawing.
 fn directed(problem: &Problem, items: &[Item], degrees: &Decimal) -> Option<Vec<Item>> {
     let between = |[a, b]: [usize; 2]| direction(problem, LineName::Points([a, b]));
-    let cross = |u: &[BigRational; 3], v: &[BigRational; 3]| &u[0] * &v[1] - &u[1] * &v[0];
+    let cross = |u: &[Rational; 3], v: &[Rational; 3]| &u[0] * &v[1] - &u[1] * &v[0];
     let mut arguments = Arguments::new(problem, items);
     if let [Item::Point(a), at @ Item::Point(b), Item::Point(c)] = *items {
         let sense = cross(&between([b, a])?, &between([b, c])?);

@@ -5,10 +5,10 @@ use crate::interval::{Interval, Real};
 use crate::order::InOrder;
 use crate::places::Each as _;
 use crate::problem::{Constraint, Decimal, Problem, Target};
+use crate::rational::Rational;
 use crate::system::Located;
 use num_bigint::BigInt;
-use num_rational::BigRational;
-use num_traits::{One, Signed};
+use num_traits::One;
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 use toml_edit::{Document, Item, TableLike, Value};
@@ -275,7 +275,7 @@ fn turned_round(
     constraint: &Constraint,
     (before, after): (&Decimal, &Decimal),
 ) -> Option<(Range<usize>, [usize; 2])> {
-    let is_right = |degrees: &Decimal| *degrees.value() == BigRational::from_integer(90.into());
+    let is_right = |degrees: &Decimal| *degrees.value() == Rational::from_integer(90.into());
     let becomes_right = is_right(after) && !is_right(before);
     let mut items = Arguments::new(problem, &constraint.items);
     let all = items.left();
@@ -299,14 +299,14 @@ fn turned_round(
 }
 
 /// The direction of a line in the drawing, from its first end to its second. `None`: it is a line of its own.
-pub(super) fn direction(problem: &Problem, line: LineName) -> Option<[BigRational; 3]> {
+pub(super) fn direction(problem: &Problem, line: LineName) -> Option<[Rational; 3]> {
     match line {
         LineName::Points([a, b]) => {
             let [from, to] = [a, b].each(|p| &problem.points[p].sketch);
             Some(std::array::from_fn(|k| to[k].value() - from[k].value()))
         }
         LineName::Axis(axis) => Some(std::array::from_fn(|k| {
-            BigRational::from_integer(i32::from(k == axis).into())
+            Rational::from_integer(i32::from(k == axis).into())
         })),
         LineName::Free(_) => None,
     }
@@ -351,7 +351,7 @@ fn toml_number(text: &str) -> String {
 
 /// An angle set to any number of degrees as it is without a sense of turn, which the places of points tell: between 0 and 180.
 fn folded(degrees: &Decimal) -> Option<Decimal> {
-    let whole = |x: i32| BigRational::from_integer(x.into());
+    let whole = |x: i32| Rational::from_integer(x.into());
     let value = degrees.value();
     if value.is_positive() && *value < whole(180) {
         return Some(degrees.clone());
@@ -367,8 +367,8 @@ fn squared(length: &Decimal) -> Option<Decimal> {
 }
 
 /// A ratio that is a decimal, unless it has too many digits.
-fn decimal(ratio: BigRational) -> Option<Decimal> {
-    let ten = BigRational::from_integer(BigInt::from(10));
+fn decimal(ratio: Rational) -> Option<Decimal> {
+    let ten = Rational::from_integer(BigInt::from(10));
     let mut scaled = ratio;
     // A decimal's denominator divides a power of ten.
     for shift in 0..400 {

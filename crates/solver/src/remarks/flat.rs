@@ -4,11 +4,10 @@ use super::{Remark, joined, tetrahedra, triangles};
 use crate::interval::vector;
 use crate::places::Each as _;
 use crate::problem::{Object, Problem, Shape};
+use crate::rational::Rational;
 use crate::system::Homotopy;
-use num_rational::BigRational;
-use num_traits::Zero;
 
-type Vector = [BigRational; 3];
+type Vector = [Rational; 3];
 
 fn from(problem: &Problem, a: usize, b: usize) -> Vector {
     let [a, b] = [a, b].each(|p| &problem.points[p].sketch);
@@ -20,12 +19,12 @@ fn cross(u: &Vector, v: &Vector) -> Vector {
     [minor(1, 2), minor(2, 0), minor(0, 1)]
 }
 
-fn dot(u: &Vector, v: &Vector) -> BigRational {
+fn dot(u: &Vector, v: &Vector) -> Rational {
     &u[0] * &v[0] + &u[1] * &v[1] + &u[2] * &v[2]
 }
 
 fn is_zero(v: &Vector) -> bool {
-    v.iter().all(Zero::is_zero)
+    v.iter().all(Rational::is_zero)
 }
 
 /// Whether some vectors span less than the whole plane or space.

@@ -3,11 +3,10 @@
 use super::{Remark, tetrahedra, triangles};
 use crate::interval::{Interval, enclose, enclose_rational, point};
 use crate::problem::{Problem, Target};
-use num_rational::BigRational;
-use num_traits::{Signed, Zero};
+use crate::rational::Rational;
 
 /// The exact square of a target length.
-fn squared(problem: &Problem, distance: usize) -> BigRational {
+fn squared(problem: &Problem, distance: usize) -> Rational {
     problem.distances[distance].target.squared()
 }
 
@@ -90,7 +89,7 @@ pub(super) fn flat(problem: &Problem) -> Vec<Remark> {
     for (points, sides) in triangles(problem) {
         let [a, b, c] = sides.map(|side| squared(problem, side));
         // Heron: 16 area² = 4 a² b² − (a² + b² − c²)².
-        let four = BigRational::from_integer(4.into());
+        let four = Rational::from_integer(4.into());
         let area = four * &a * &b - (&a + &b - &c).pow(2);
         if area.is_zero() {
             // The longest side is opposite to the one in the middle.
@@ -119,17 +118,17 @@ pub(super) fn flat(problem: &Problem) -> Vec<Remark> {
 
 /// 36 volume² of the tetrahedron with the target lengths: the determinant of the products of its sides from the first
 /// point.
-fn gram(problem: &Problem, points: [usize; 4]) -> BigRational {
-    let between = |a: usize, b: usize| -> BigRational {
+fn gram(problem: &Problem, points: [usize; 4]) -> Rational {
+    let between = |a: usize, b: usize| -> Rational {
         let (a, b) = (points[a], points[b]);
         let mut found = problem.distances.iter().enumerate();
         let found = found.find(|(_, d)| d.points == [a, b] || d.points == [b, a]);
-        found.map_or(BigRational::zero(), |(index, _)| squared(problem, index))
+        found.map_or(Rational::zero(), |(index, _)| squared(problem, index))
     };
-    let half = BigRational::new(1.into(), 2.into());
-    let g = |i: usize, j: usize| -> BigRational {
+    let half = Rational::new(1.into(), 2.into());
+    let g = |i: usize, j: usize| -> Rational {
         let opposite = if i == j {
-            BigRational::zero()
+            Rational::zero()
         } else {
             between(i, j)
         };

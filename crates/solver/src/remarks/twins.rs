@@ -3,15 +3,15 @@
 use super::{Remark, triangles};
 use crate::places::Each as _;
 use crate::problem::{Problem, Target};
-use num_rational::BigRational;
+use crate::rational::Rational;
 use std::collections::HashMap;
 
 /// The squares of a length in the sketch and in the target, and whether it bends.
-fn lengths(problem: &Problem, index: usize) -> (BigRational, BigRational, bool) {
+fn lengths(problem: &Problem, index: usize) -> (Rational, Rational, bool) {
     let distance = &problem.distances[index];
     let [a, b] = distance.points.each(|p| &problem.points[p].sketch);
     let terms = (0..3).map(|k| (a[k].value() - b[k].value()).pow(2));
-    let sketch = terms.fold(BigRational::from_integer(0.into()), |sum, x| sum + x);
+    let sketch = terms.fold(Rational::from_integer(0.into()), |sum, x| sum + x);
     let target = match &distance.target {
         Target::Length(length) => length.value().pow(2),
         Target::SquaredLength(squared) => squared.value().clone(),

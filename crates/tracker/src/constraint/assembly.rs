@@ -10,7 +10,6 @@ use super::lowering::Fault;
 use crate::decimal::Decimal;
 use crate::interval::Real;
 use crate::statement::{JointSort, Pose, Problem, Shape};
-use num_traits::Signed;
 use std::array::from_fn;
 use std::collections::HashSet;
 

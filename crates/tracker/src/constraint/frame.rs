@@ -2,17 +2,16 @@
 
 use crate::decimal::Decimal;
 use crate::interval::Real;
+use crate::rational::Rational;
 use crate::statement::Problem;
-use num_rational::BigRational;
-use num_traits::{One, Zero};
 use std::ops::{Add, Mul, Sub};
 
 /// A place or a direction in the coordinates of the file; the third number is zero in the plane.
-pub type Vector = [BigRational; 3];
+pub type Vector = [Rational; 3];
 
 /// The number zero.
-pub fn zero() -> BigRational {
-    BigRational::zero()
+pub fn zero() -> Rational {
+    Rational::zero()
 }
 
 /// The vector of three decimals.
@@ -63,13 +62,13 @@ where
 }
 
 /// The z coordinate of a × b: in the plane, |a| |b| times the sine of the angle from a to b.
-pub fn cross_in_plane(a: &Vector, b: &Vector) -> BigRational {
+pub fn cross_in_plane(a: &Vector, b: &Vector) -> Rational {
     &a[0] * &b[1] - &a[1] * &b[0]
 }
 
 /// Whether all coordinates are zero.
 pub fn is_zero(a: &Vector) -> bool {
-    a.iter().all(Zero::is_zero)
+    a.iter().all(Rational::is_zero)
 }
 
 /// |a|.
@@ -91,7 +90,7 @@ impl Frame {
     /// The frame of a problem whose reference has been checked.
     pub fn new(problem: &Problem) -> Self {
         let place = |k: usize| vector(&problem.points[problem.homotopy.reference[k]].sketch);
-        let (o, one) = (zero(), BigRational::one());
+        let (o, one) = (zero(), Rational::one());
         if problem.is_absolute() {
             return Frame {
                 origin: [o.clone(), o.clone(), o.clone()],

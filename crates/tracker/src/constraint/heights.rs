@@ -383,7 +383,7 @@ mod tests {
             over_one_minus_t(&vec![root.clone(), -&root]),
             Some(vec![root.clone()])
         );
-        let other = &(-&root) + &Real::from(num_rational::BigRational::new(1.into(), 1000.into()));
+        let other = &(-&root) + &Real::from(crate::rational::Rational::new(1.into(), 1000.into()));
         assert_eq!(over_one_minus_t(&vec![root, other]), None);
     }
 

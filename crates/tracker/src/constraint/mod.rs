@@ -73,7 +73,6 @@ use crate::interval::Interval;
 use crate::statement::Problem;
 use kind::Given;
 use lowering::{Lowering, Start};
-use num_traits::Zero;
 
 /// The kind that has this key in problem files.
 pub fn kind(key: &str) -> Option<&'static dyn Kind> {
@@ -362,7 +361,7 @@ fn check_value(kind: &dyn Kind, problem: &Problem, index: usize) -> Result<(), F
         (None, Some(wanted)) => Err(format!("there is no number at its end: give {wanted}")),
         (Some(value), Some(wanted)) => {
             let number = value.value();
-            let straight = num_rational::BigRational::from_integer(180.into());
+            let straight = crate::rational::Rational::from_integer(180.into());
             let in_range = match measure {
                 Measure::Length | Measure::Ratio => value.is_positive(),
                 Measure::Degrees => value.is_positive() && *number < straight,

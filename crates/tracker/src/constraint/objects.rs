@@ -11,8 +11,8 @@ use super::quadratic::{Entry, Form, Product, Role, value};
 use crate::decimal::Decimal;
 use crate::interval::Real;
 use crate::places::{Each as _, array};
+use crate::rational::Rational;
 use crate::statement::Shape;
-use num_rational::BigRational;
 
 /// A line as equations see it.
 #[derive(Debug, Clone)]
@@ -36,7 +36,7 @@ enum Level {
     /// It goes through a point.
     Through(Place),
     /// Its points have this product with the normal; and what that is in the sketch.
-    Offset(Entry, BigRational),
+    Offset(Entry, Rational),
 }
 
 /// A circle, sphere or arc as equations see it.
@@ -47,7 +47,7 @@ pub struct Round {
     /// Its radius.
     pub radius: Entry,
     /// The square of the radius in the sketch.
-    pub squared: BigRational,
+    pub squared: Rational,
 }
 
 impl Plane {
@@ -66,7 +66,7 @@ impl Plane {
     }
 
     /// What those are in the sketch, with factor 1.
-    pub fn height_in_sketch(&self, low: &Lowering, of: &Place) -> BigRational {
+    pub fn height_in_sketch(&self, low: &Lowering, of: &Place) -> Rational {
         match &self.level {
             Level::Through(base) => dot(&self.normal.at, &minus(&of.at, &base.at)),
             Level::Offset(_, level) => {
@@ -463,7 +463,7 @@ impl Coordinates {
 
     /// In the plane along the edge and along the edge turned by a right angle; in space along both
     /// edges and their cross product.
-    fn of(&self, place: &Vector) -> [BigRational; 3] {
+    fn of(&self, place: &Vector) -> [Rational; 3] {
         let d = minus(place, &self.origin);
         match self.edges.as_slice() {
             [u] => {

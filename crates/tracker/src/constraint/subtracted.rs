@@ -9,9 +9,9 @@ use super::diameters::{Key, keys};
 use super::factors::Equal;
 use super::quadratic::{Product, Tail};
 use crate::interval::Real;
+use crate::rational::Rational;
 use num_bigint::BigInt;
 use num_integer::Integer;
-use num_rational::BigRational;
 use num_traits::Signed;
 use std::collections::VecDeque;
 
@@ -43,7 +43,7 @@ pub fn subtract(tail: &mut Tail, rights: &mut [Real], equal: &Equal, is_kept: &[
                 .iter()
                 .fold(0, |common: i32, (key, _)| common.gcd(&key.0));
             let common = common * left.first().map_or(1, |(key, _)| key.0.signum());
-            let part = BigRational::new(1.into(), common.into());
+            let part = Rational::new(1.into(), common.into());
             rights[e] = &Real::from(part) * &right;
             let left = left.into_iter().map(|((factor, one, other), mut product)| {
                 product.factor /= common;
@@ -68,7 +68,7 @@ fn is_given(products: &[(Key, Product)], right: &Real) -> bool {
         [] => false,
         // Products are of twice the left-hand side.
         [((factor, one, other), _)] if one == other => {
-            let square = right * BigRational::new(2.into(), (*factor).into());
+            let square = right * Rational::new(2.into(), (*factor).into());
             let is_square = |n: &BigInt| !n.is_negative() && n.sqrt().pow(2) == *n;
             is_square(square.numer()) && is_square(square.denom())
         }

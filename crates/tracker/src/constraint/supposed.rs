@@ -2,7 +2,6 @@
 
 use super::arguments::Arguments;
 use crate::statement::{Atom, Constraint, Problem};
-use num_traits::Signed;
 
 /// The lengths that `ratios` and `differences` compare or that stand in equations, by the ends, and that are no dimension and not the longer ones of a difference: their
 /// equations suppose that they are greater than zero, so that a figure in which one is 0 is none.

@@ -11,9 +11,8 @@
 
 use super::quadratic::{Entry, Equation, Form, Product, Role, Tail};
 use crate::interval::{Interval, Real};
+use crate::rational::Rational;
 use num_bigint::BigInt;
-use num_rational::BigRational;
-use num_traits::{One, Zero};
 use std::collections::BTreeMap;
 
 /// Larger eliminations are not made: no unknown is known to be zero then.
@@ -23,12 +22,12 @@ const MOST: usize = 200;
 type Factor = (bool, usize, usize);
 /// None, one or two factors, in order.
 type Monomial = Vec<Factor>;
-type Sum = BTreeMap<Monomial, BigRational>;
+type Sum = BTreeMap<Monomial, Rational>;
 
 /// What stands for a coordinate or unknown.
 #[derive(Clone)]
 enum Value {
-    Number(BigRational),
+    Number(Rational),
     /// Itself, or another one that is equal.
     Name(Factor),
 }
@@ -74,12 +73,12 @@ pub fn zeros(tail: &Tail, vanishing: &[bool]) -> Vec<bool> {
         let rows = equations.filter_map(|(equation, &vanishing)| {
             let mut row = sum(&equation.products, &known);
             let right = at_target(equation, vanishing).as_rational()?.clone();
-            *row.entry(Monomial::new()).or_default() -= right * BigRational::from(BigInt::from(2));
+            *row.entry(Monomial::new()).or_default() -= right * Rational::from(BigInt::from(2));
             row.retain(|_, factor| !factor.is_zero());
             Some(row)
         });
         for row in reduced(rows) {
-            let terms: Vec<(&[Factor], &BigRational)> =
+            let terms: Vec<(&[Factor], &Rational)> =
                 row.iter().map(|(m, x)| (m.as_slice(), x)).collect();
             let (of, is) = match terms[..] {
                 [([], x), ([other], _)] => (*other, Value::Number(-x)),
@@ -89,7 +88,7 @@ pub fn zeros(tail: &Tail, vanishing: &[bool]) -> Vec<bool> {
                     others.retain(|&(is_unknown, u, _)| !(is_unknown && nonzero[u]));
                     others.dedup();
                     match others[..] {
-                        [only] => (only, Value::Number(BigRational::zero())),
+                        [only] => (only, Value::Number(Rational::zero())),
                         _ => continue,
                     }
                 }
@@ -166,8 +165,8 @@ fn nonzero(tail: &Tail, vanishing: &[bool]) -> Vec<bool> {
 
 /// Σ factor · left · right, multiplied out, with what is known in the place of names.
 fn sum(products: &[Product], known: &Known) -> Sum {
-    let parts = |form: Form| -> Vec<(Option<Factor>, BigRational)> {
-        let one = BigRational::one;
+    let parts = |form: Form| -> Vec<(Option<Factor>, Rational)> {
+        let one = Rational::one;
         let Form::Difference(a, b) = form else {
             return vec![(None, one())];
         };
@@ -180,7 +179,7 @@ fn sum(products: &[Product], known: &Known) -> Sum {
     };
     let mut out = Sum::new();
     for p in products {
-        let factor = BigRational::from(BigInt::from(p.factor));
+        let factor = Rational::from(BigInt::from(p.factor));
         for (a, by) in parts(p.left) {
             for (b, times) in parts(p.right) {
                 let mut monomial: Monomial = [a, b].into_iter().flatten().collect();
@@ -197,7 +196,7 @@ fn sum(products: &[Product], known: &Known) -> Sum {
 /// multiples of the rows is one of the rows then.
 fn reduced(rows: impl Iterator<Item = Sum>) -> Vec<Sum> {
     let mut basis: BTreeMap<Monomial, Sum> = BTreeMap::new();
-    let subtract = |from: &mut Sum, other: &Sum, times: &BigRational| {
+    let subtract = |from: &mut Sum, other: &Sum, times: &Rational| {
         for (monomial, value) in other {
             let entry = from.entry(monomial.clone()).or_default();
             *entry -= times * value;

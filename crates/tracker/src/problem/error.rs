@@ -368,9 +368,7 @@ pub(super) fn did_you_mean(nearest: &Option<String>) -> String {
 /// What to say in place of a distance of two points that is zero.
 fn instead_of_zero(value: &str) -> &'static str {
     match value.parse::<super::Decimal>() {
-        Ok(number) if num_traits::Zero::is_zero(number.value()) => {
-            ": for two points in one place say `coincident`"
-        }
+        Ok(number) if number.value().is_zero() => ": for two points in one place say `coincident`",
         _ => "",
     }
 }

@@ -2,9 +2,9 @@
 //! the polynomials of [equations](super::formula).
 
 use super::{Decimal, DecimalError};
+use crate::rational::Rational;
 use num_bigint::BigInt;
-use num_rational::BigRational;
-use num_traits::{Signed, Zero};
+use num_traits::Signed;
 
 /// A number that has no end as a decimal, as a third, is taken to so many digits.
 const DIGITS: i32 = 30;
@@ -72,8 +72,8 @@ pub fn with_set(
 }
 
 /// The decimal that a ratio is, or the nearest with so many digits.
-fn decimal(value: &BigRational) -> Result<Decimal, DecimalError> {
-    let ten = BigRational::from_integer(BigInt::from(10));
+fn decimal(value: &Rational) -> Result<Decimal, DecimalError> {
+    let ten = Rational::from_integer(BigInt::from(10));
     // A ratio with an end has only twos and fives in its denominator, and no more of them than this.
     let exact = (0..=60).find(|&places| (value * ten.pow(places)).is_integer());
     let places = exact.unwrap_or_else(|| {
@@ -125,7 +125,7 @@ struct Numbers<'a>(&'a [(String, Decimal)]);
 
 impl Numbers<'_> {
     /// A number, if it is no larger than numbers may be.
-    fn checked(number: BigRational) -> Result<BigRational, String> {
+    fn checked(number: Rational) -> Result<Rational, String> {
         match number.numer().bits().max(number.denom().bits()) <= MOST_BITS {
             true => Ok(number),
             false => Err(" has a number that is too large on the way".to_owned()),
@@ -134,13 +134,13 @@ impl Numbers<'_> {
 }
 
 impl Algebra for Numbers<'_> {
-    type Value = BigRational;
+    type Value = Rational;
 
-    fn number(&self, number: Decimal) -> Result<BigRational, String> {
+    fn number(&self, number: Decimal) -> Result<Rational, String> {
         Ok(number.value().clone())
     }
 
-    fn name(&mut self, name: &str, _rest: &str) -> Result<(BigRational, usize), String> {
+    fn name(&mut self, name: &str, _rest: &str) -> Result<(Rational, usize), String> {
         let found = self.0.iter().find(|(other, _)| other == name);
         let (_, value) = found.ok_or_else(|| {
             let names = self.0.iter().map(|(name, _)| name.as_str());
@@ -151,36 +151,36 @@ impl Algebra for Numbers<'_> {
         Ok((value.value().clone(), 0))
     }
 
-    fn bars(&mut self, inner: &str) -> Result<BigRational, String> {
+    fn bars(&mut self, inner: &str) -> Result<Rational, String> {
         Err(format!(
             ": a length, `|{inner}|`, can stand in equations only"
         ))
     }
 
-    fn root(&mut self, _of: BigRational) -> Result<BigRational, String> {
+    fn root(&mut self, _of: Rational) -> Result<Rational, String> {
         Err(": a root can stand in equations only".to_owned())
     }
 
-    fn sum(&self, a: BigRational, b: BigRational) -> Result<BigRational, String> {
+    fn sum(&self, a: Rational, b: Rational) -> Result<Rational, String> {
         Self::checked(a + b)
     }
 
-    fn negative(&self, a: BigRational) -> BigRational {
+    fn negative(&self, a: Rational) -> Rational {
         -a
     }
 
-    fn product(&self, a: &BigRational, b: &BigRational) -> Result<BigRational, String> {
+    fn product(&self, a: &Rational, b: &Rational) -> Result<Rational, String> {
         Self::checked(a * b)
     }
 
-    fn quotient(&mut self, a: BigRational, b: BigRational) -> Result<BigRational, String> {
+    fn quotient(&mut self, a: Rational, b: Rational) -> Result<Rational, String> {
         match b.is_zero() {
             true => Err(" divides by zero".to_owned()),
             false => Self::checked(a / b),
         }
     }
 
-    fn whole(&self, a: &BigRational) -> Option<u32> {
+    fn whole(&self, a: &Rational) -> Option<u32> {
         let whole = a.is_integer().then(|| a.to_integer());
         whole.and_then(|whole| u32::try_from(whole).ok())
     }

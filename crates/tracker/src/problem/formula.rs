@@ -2,9 +2,8 @@
 
 use super::expression::{Algebra, Reader};
 use super::{Decimal, Item};
+use crate::rational::Rational;
 use crate::statement::{AXES, Atom, Formula, Terms, nearest};
-use num_rational::BigRational;
-use num_traits::{One, Zero};
 use std::collections::HashMap;
 
 /// Most terms of an equation that is multiplied out.
@@ -73,7 +72,7 @@ impl Polynomials<'_> {
             self.atoms.push(atom);
             self.atoms.len() - 1
         });
-        Terms::from([(vec![index], BigRational::one())])
+        Terms::from([(vec![index], Rational::one())])
     }
 
     fn point(&self, name: &str) -> Result<usize, String> {
@@ -100,7 +99,7 @@ impl Polynomials<'_> {
         if terms.keys().any(|term| term.len() > MOST_DEGREE) {
             return Err(format!(" has a degree above {MOST_DEGREE}"));
         }
-        let large = |c: &BigRational| c.numer().bits().max(c.denom().bits()) > MOST_BITS;
+        let large = |c: &Rational| c.numer().bits().max(c.denom().bits()) > MOST_BITS;
         match terms.values().any(large) {
             true => Err(" has a number that is too large on the way".to_owned()),
             false => Ok(terms),
@@ -108,14 +107,14 @@ impl Polynomials<'_> {
     }
 
     /// The number that it is, if no unknown is in it.
-    fn constant(terms: &Terms) -> Option<BigRational> {
+    fn constant(terms: &Terms) -> Option<Rational> {
         let is_constant = terms.keys().all(Vec::is_empty);
         is_constant.then(|| {
             terms
                 .values()
                 .next()
                 .cloned()
-                .unwrap_or_else(BigRational::zero)
+                .unwrap_or_else(Rational::zero)
         })
     }
 }
@@ -137,18 +136,15 @@ impl Algebra for Polynomials<'_> {
         let ends = !behind
             .next()
             .is_some_and(|c| c.is_alphanumeric() || c == '_');
-        if let Some(axis) = coordinate.filter(|_| ends) {
+        if let Some(letter) = coordinate.filter(|_| ends) {
             let point = self.point(name)?;
-            let axis = AXES
-                .iter()
-                .position(|axis_name| axis_name.starts_with(axis));
+            let axis = AXES.iter().position(|name| name.starts_with(letter));
             let axis = axis.filter(|&axis| axis < self.dimension);
             let axis = axis.ok_or_else(|| {
                 let all = &["x", "y", "z"][..self.dimension];
                 format!(
-                    ": a point has the coordinates {}, and not `{}`",
+                    ": a point has the coordinates {}, and not `{letter}`",
                     all.join(", "),
-                    &rest[1..2]
                 )
             })?;
             return Ok((self.atom(Atom::Coordinate { point, axis }), 2));
@@ -187,7 +183,7 @@ impl Algebra for Polynomials<'_> {
 
     fn root(&mut self, of: Terms) -> Result<Terms, String> {
         match Self::constant(&of) {
-            Some(number) if number < BigRational::zero() => {
+            Some(number) if number < Rational::zero() => {
                 Err(" has the root of a number less than zero".to_owned())
             }
             Some(number) if number.is_zero() => Ok(of),
@@ -197,7 +193,7 @@ impl Algebra for Polynomials<'_> {
 
     fn sum(&self, mut a: Terms, b: Terms) -> Result<Terms, String> {
         for (term, coefficient) in b {
-            *a.entry(term).or_insert_with(BigRational::zero) += coefficient;
+            *a.entry(term).or_insert_with(Rational::zero) += coefficient;
         }
         a.retain(|_, coefficient| !coefficient.is_zero());
         Self::checked(a)
@@ -218,7 +214,7 @@ impl Algebra for Polynomials<'_> {
             for (t, y) in b {
                 let mut term = [&s[..], &t[..]].concat();
                 term.sort_unstable();
-                *out.entry(term).or_insert_with(BigRational::zero) += x * y;
+                *out.entry(term).or_insert_with(Rational::zero) += x * y;
             }
         }
         out.retain(|_, coefficient| !coefficient.is_zero());
@@ -268,7 +264,7 @@ mod tests {
             _ => 1.0,
         };
         let terms = formula.zero.iter();
-        let number = |c: &BigRational| num_traits::ToPrimitive::to_f64(c).unwrap();
+        let number = |c: &Rational| c.to_f64();
         terms
             .map(|(term, c)| number(c) * term.iter().map(at).product::<f64>())
             .sum()
@@ -304,6 +300,7 @@ mod tests {
             ("x + z = 1", "no unknown or parameter `z`"),
             ("A + x = 1", "A.x and A.y"),
             ("A.z = 1", "the coordinates x, y"),
+            ("A.é = 1", "not `é`"),
             ("C.x = 1", "no point `C`"),
             ("|A-C| = 1", "no point `C`"),
             ("|A| = 1", "|A-B|"),

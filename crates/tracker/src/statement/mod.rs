@@ -3,7 +3,7 @@
 //! All of this is part of [`crate::problem`], which reads, builds and checks problems; what constraints mean stands between the two.
 
 use crate::decimal::Decimal;
-use num_rational::BigRational;
+use crate::rational::Rational;
 use std::collections::BTreeMap;
 
 mod formula;
@@ -87,7 +87,7 @@ pub enum Target {
 
 impl Target {
     /// The square of the length, exactly.
-    pub fn squared(&self) -> BigRational {
+    pub fn squared(&self) -> Rational {
         match self {
             Target::Length(length) => length.value().pow(2),
             Target::SquaredLength(squared) => squared.value().clone(),

@@ -3,7 +3,6 @@
 
 use super::{Formula, JointSort, Pose, Problem};
 use crate::decimal::Decimal;
-use num_traits::Signed;
 
 /// A line, plane, circle, sphere, arc, rigid body, joint, or an unknown number.
 #[derive(Debug, Clone, PartialEq)]

@@ -5,7 +5,7 @@ use crate::constraint::{self, Record, Tail};
 use crate::interval::{Interval, enclose, point};
 use crate::places::Each as _;
 use crate::problem::{Problem, Target};
-use num_rational::BigRational;
+use crate::rational::Rational;
 
 impl Homotopy {
     /// Makes distance `index` stay at `target` for all t.
@@ -89,7 +89,7 @@ impl Homotopy {
 pub fn is_met(problem: &Problem, index: usize) -> bool {
     let distance = &problem.distances[index];
     let [a, b] = distance.points.each(|p| &problem.points[p].sketch);
-    let sum = (0..3).fold(BigRational::from_integer(0.into()), |sum, k| {
+    let sum = (0..3).fold(Rational::from_integer(0.into()), |sum, k| {
         let d = a[k].value() - b[k].value();
         sum + &d * &d
     });

@@ -2,14 +2,13 @@
 
 use crate::interval::{Ball, DoubleDouble, root};
 use crate::problem::{Decimal, Target};
-use num_rational::BigRational;
-use num_traits::Zero;
+use crate::rational::Rational;
 
 /// What a(t) of one distance is made of, exactly as the problem says it.
 #[derive(Debug, Clone)]
 pub struct ExactLength {
     /// The square of the length in the sketch.
-    pub sketch_squared: BigRational,
+    pub sketch_squared: Rational,
     /// The target length.
     pub target: Target,
     /// The bend's coefficient c, if the distance bends.
@@ -25,14 +24,14 @@ impl ExactLength {
     /// The coefficients of E(t) = ½ a(t)² (see [`super::Length`]), in the homotopy's unit, with the
     /// errors of their double-doubles.
     pub fn half_square(&self) -> [Approximate; 5] {
-        let half = Ball::exactly(BigRational::new(1.into(), 2.into()));
+        let half = Ball::exactly(Rational::new(1.into(), 2.into()));
         let sketch_squared = &self.sketch_squared * self.per_unit().pow(2);
         let a0 = root(&sketch_squared);
         let to_target = root(&self.target_squared()).plus(&a0.negated());
         let e0 = Ball::exactly(sketch_squared).times(&half);
         let coefficients = match &self.bend {
             None => {
-                let zero = Ball::exactly(BigRational::zero());
+                let zero = Ball::exactly(Rational::zero());
                 let straight = to_target.times(&to_target).times(&half);
                 [e0, a0.times(&to_target), straight, zero.clone(), zero]
             }
@@ -53,16 +52,16 @@ impl ExactLength {
 
     /// E(1), straight from the target length.
     pub fn target_half_square(&self) -> Ball {
-        let half = BigRational::new(1.into(), 2.into());
+        let half = Rational::new(1.into(), 2.into());
         Ball::exactly(self.target_squared() * half)
     }
 
-    fn per_unit(&self) -> BigRational {
-        BigRational::from_float(1.0 / self.unit).expect("a unit is a power of two")
+    fn per_unit(&self) -> Rational {
+        Rational::from_float(1.0 / self.unit).expect("a unit is a power of two")
     }
 
     /// The square of the target length, in the homotopy's unit.
-    fn target_squared(&self) -> BigRational {
+    fn target_squared(&self) -> Rational {
         self.target.squared() * self.per_unit().pow(2)
     }
 }
@@ -73,8 +72,8 @@ mod tests {
     use crate::interval::{enclose, enclose_rational, point};
     use crate::system::Length;
 
-    fn exact(x: f64) -> BigRational {
-        BigRational::from_float(x).unwrap()
+    fn exact(x: f64) -> Rational {
+        Rational::from_float(x).unwrap()
     }
 
     #[test]

@@ -299,7 +299,7 @@ impl Homotopy {
         for (index, distance) in distances.iter().enumerate() {
             let [a, b] = distance.points.each(|p| &problem.points[p].sketch);
             let squared = (0..3).fold(
-                num_rational::BigRational::from_integer(0.into()),
+                crate::rational::Rational::from_integer(0.into()),
                 |sum, k| {
                     let d = a[k].value() - b[k].value();
                     sum + &d * &d

@@ -4,7 +4,7 @@ use super::{ExactLength, Length};
 use crate::constraint::MAX_DEGREE;
 use crate::interval::{Ball, DoubleDouble, Interval, Real, point};
 use crate::places::{Each as _, array};
-use num_rational::BigRational;
+use crate::rational::Rational;
 
 /// E(t), a polynomial of degree at most 4 with exact coefficients, in the homotopy's unit: half the
 /// square of a length (RR 8705, section 3.1), or what a constraint says.
@@ -29,7 +29,7 @@ enum Exact {
     /// Half the square of a length.
     HalfSquare(ExactLength),
     /// A polynomial, divided by a power of two.
-    Polynomial(Vec<Real>, BigRational),
+    Polynomial(Vec<Real>, Rational),
 }
 
 /// A number and how far the exact one may be from it.
@@ -62,7 +62,7 @@ impl Right {
         }
         let target = sum(coefficients).enclose() * per_unit;
         let high = coefficients.iter().skip(3).any(|c| !c.is_zero());
-        let unit = BigRational::from_float(unit).expect("a unit is a power of two");
+        let unit = Rational::from_float(unit).expect("a unit is a power of two");
         let exact = Exact::Polynomial(coefficients.to_vec(), unit);
         Self::new(enclosures, target, exact, if high { MAX_DEGREE } else { 2 })
     }
@@ -134,7 +134,7 @@ fn sum(coefficients: &[Real]) -> Real {
     coefficients.iter().fold(Real::zero(), |sum, c| &sum + c)
 }
 
-fn divided(number: Real, unit: &BigRational) -> Ball {
+fn divided(number: Real, unit: &Rational) -> Ball {
     (&number * &Real::from(unit.recip())).ball()
 }
 

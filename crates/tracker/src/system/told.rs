@@ -17,17 +17,16 @@ use super::{Homotopy, Term};
 use crate::equations::Form;
 use crate::interval::{Interval, ZERO, enclose_rational};
 use crate::places::Each as _;
+use crate::rational::Rational;
 use num_bigint::BigInt;
-use num_rational::BigRational;
-use num_traits::{One, Signed, ToPrimitive, Zero};
 use std::collections::BTreeMap;
 
 /// `Σ q_ij z_i z_j + Σ b_i z_i + c`, which is 0. The z are unknowns of the homotopy, and behind these symbols for numbers ([`Told`]).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Quadratic {
-    products: BTreeMap<[usize; 2], BigRational>,
-    linear: BTreeMap<usize, BigRational>,
-    constant: BigRational,
+    products: BTreeMap<[usize; 2], Rational>,
+    linear: BTreeMap<usize, Rational>,
+    constant: Rational,
 }
 
 /// A [`Quadratic`] with ranges for all that are not unknowns of a block: each term is a factor, an unknown, and perhaps another one.
@@ -70,7 +69,7 @@ pub struct Contradiction;
 /// of equations that are not below m stand for the number 0, and get no symbol.)
 #[derive(Debug, Clone, Default)]
 pub struct Told {
-    values: BTreeMap<usize, BigRational>,
+    values: BTreeMap<usize, Rational>,
     sides: BTreeMap<usize, Quadratic>,
     roots: BTreeMap<usize, Interval>,
 }
@@ -88,7 +87,7 @@ pub struct View<'a> {
 }
 
 impl Quadratic {
-    fn constant(c: BigRational) -> Self {
+    fn constant(c: Rational) -> Self {
         Quadratic {
             products: BTreeMap::new(),
             linear: BTreeMap::new(),
@@ -97,8 +96,8 @@ impl Quadratic {
     }
 
     fn symbol(i: usize) -> Self {
-        let mut out = Self::constant(BigRational::zero());
-        out.linear.insert(i, BigRational::one());
+        let mut out = Self::constant(Rational::zero());
+        out.linear.insert(i, Rational::one());
         out
     }
 
@@ -107,12 +106,12 @@ impl Quadratic {
     }
 
     /// Adds `by` times another one.
-    fn add(&mut self, by: &BigRational, other: &Self) {
+    fn add(&mut self, by: &Rational, other: &Self) {
         for (&key, q) in &other.products {
-            *self.products.entry(key).or_insert_with(BigRational::zero) += by * q;
+            *self.products.entry(key).or_insert_with(Rational::zero) += by * q;
         }
         for (&i, b) in &other.linear {
-            *self.linear.entry(i).or_insert_with(BigRational::zero) += by * b;
+            *self.linear.entry(i).or_insert_with(Rational::zero) += by * b;
         }
         self.constant += by * &other.constant;
         self.products.retain(|_, q| !q.is_zero());
@@ -126,12 +125,12 @@ impl Quadratic {
         for (&i, b) in &self.linear {
             for (&j, d) in &other.linear {
                 let key = [i.min(j), i.max(j)];
-                *out.products.entry(key).or_insert_with(BigRational::zero) += b * d;
+                *out.products.entry(key).or_insert_with(Rational::zero) += b * d;
             }
         }
         for (one, by) in [(self, &other.constant), (other, &self.constant)] {
             for (&i, b) in &one.linear {
-                *out.linear.entry(i).or_insert_with(BigRational::zero) += b * by;
+                *out.linear.entry(i).or_insert_with(Rational::zero) += b * by;
             }
         }
         out.products.retain(|_, q| !q.is_zero());
@@ -169,7 +168,7 @@ impl Quadratic {
     fn curved<'a>(
         &'a self,
         view: &'a View,
-    ) -> impl Iterator<Item = (&'a [usize; 2], &'a BigRational)> {
+    ) -> impl Iterator<Item = (&'a [usize; 2], &'a Rational)> {
         let is_own = |i: &usize| view.unknowns.contains(i);
         self.products
             .iter()
@@ -178,30 +177,30 @@ impl Quadratic {
 }
 
 /// An interval around a ratio: all numbers, where it is beyond the floats.
-pub fn range(x: &BigRational) -> Interval {
-    match x.to_f64().is_some_and(f64::is_finite) {
+pub fn range(x: &Rational) -> Interval {
+    match x.to_f64().is_finite() {
         true => enclose_rational(x),
         false => Interval::ENTIRE,
     }
 }
 
 /// The root of a ratio, if it is one.
-fn root(x: &BigRational) -> Option<BigRational> {
+fn root(x: &Rational) -> Option<Rational> {
     let whole = |n: &BigInt| Some(n.sqrt()).filter(|r| r * r == *n);
     match x.is_negative() {
         true => None,
-        false => Some(BigRational::new(whole(x.numer())?, whole(x.denom())?)),
+        false => Some(Rational::new(whole(x.numer())?, whole(x.denom())?)),
     }
 }
 
 impl Told {
     /// The unknowns whose values are known.
-    pub fn values(&self) -> impl Iterator<Item = (usize, &BigRational)> {
+    pub fn values(&self) -> impl Iterator<Item = (usize, &Rational)> {
         self.values.iter().map(|(&i, x)| (i, x))
     }
 
     /// The value of an unknown, if it is known.
-    pub fn value(&self, unknown: usize) -> Option<&BigRational> {
+    pub fn value(&self, unknown: usize) -> Option<&Rational> {
         self.values.get(&unknown)
     }
 
@@ -228,14 +227,14 @@ impl Told {
     }
 
     /// Adds values that were found elsewhere.
-    pub fn learn(&mut self, values: impl IntoIterator<Item = (usize, BigRational)>) {
+    pub fn learn(&mut self, values: impl IntoIterator<Item = (usize, Rational)>) {
         self.values.extend(values);
     }
 
     /// An entry of the equations.
     fn entry(&self, entry: Option<usize>) -> Quadratic {
         match entry.map(|i| (i, self.values.get(&i))) {
-            None => Quadratic::constant(BigRational::zero()),
+            None => Quadratic::constant(Rational::zero()),
             Some((_, Some(x))) => Quadratic::constant(x.clone()),
             Some((i, None)) => Quadratic::symbol(i),
         }
@@ -244,11 +243,11 @@ impl Told {
     /// A factor of a term.
     fn form(&self, form: Form<Option<usize>>) -> Quadratic {
         match form {
-            Form::One => Quadratic::constant(BigRational::one()),
-            Form::Difference(i, j) if i == j => Quadratic::constant(BigRational::zero()),
+            Form::One => Quadratic::constant(Rational::one()),
+            Form::Difference(i, j) if i == j => Quadratic::constant(Rational::zero()),
             Form::Difference(i, j) => {
                 let mut out = self.entry(i);
-                out.add(&-BigRational::one(), &self.entry(j));
+                out.add(&-Rational::one(), &self.entry(j));
                 out
             }
         }
@@ -256,12 +255,12 @@ impl Told {
 
     /// Twice the right-hand side of an equation.
     fn right(homotopy: &Homotopy, e: usize) -> Quadratic {
-        let two = BigRational::from(BigInt::from(2));
+        let two = Rational::from(BigInt::from(2));
         let ball = homotopy.rights[e].ball_at_target();
         match ball.radius.is_zero() {
             true => Quadratic::constant(two * ball.middle),
             false => {
-                let mut out = Quadratic::constant(BigRational::zero());
+                let mut out = Quadratic::constant(Rational::zero());
                 out.linear.insert(homotopy.equations + e, two);
                 out
             }
@@ -269,12 +268,12 @@ impl Told {
     }
 
     /// The factors of an equation's terms: those whose product is not certainly zero.
-    fn terms(&self, homotopy: &Homotopy, e: usize) -> Vec<(BigRational, [Quadratic; 2])> {
+    fn terms(&self, homotopy: &Homotopy, e: usize) -> Vec<(Rational, [Quadratic; 2])> {
         let terms = homotopy.terms(e).into_iter().map(|term| {
             let factors = term.forms().map(|form| self.form(form));
-            (BigRational::from(BigInt::from(term.factor)), factors)
+            (Rational::from(BigInt::from(term.factor)), factors)
         });
-        let nothing = Quadratic::constant(BigRational::zero());
+        let nothing = Quadratic::constant(Rational::zero());
         terms
             .filter(|(_, factors)| !factors.contains(&nothing))
             .collect()
@@ -292,11 +291,11 @@ impl Told {
             }
             return out;
         }
-        let mut out = Quadratic::constant(BigRational::zero());
+        let mut out = Quadratic::constant(Rational::zero());
         for (factor, [left, right]) in self.terms(homotopy, e) {
             out.add(&factor, &left.times(&right));
         }
-        out.add(&-BigRational::one(), &Self::right(homotopy, e));
+        out.add(&-Rational::one(), &Self::right(homotopy, e));
         out
     }
 
@@ -315,8 +314,8 @@ impl Told {
         for (factor, [left, right]) in &known {
             rest.add(&-factor.clone(), &left.times(right));
         }
-        let is_zero = rest == Quadratic::constant(BigRational::zero());
-        let sum = |one: &Quadratic, by: &BigRational, other: &Quadratic| {
+        let is_zero = rest == Quadratic::constant(Rational::zero());
+        let sum = |one: &Quadratic, by: &Rational, other: &Quadratic| {
             let mut out = one.clone();
             out.add(by, other);
             out
@@ -341,7 +340,7 @@ impl Told {
             });
             Some(sides.collect())
         };
-        let minus = -BigRational::one();
+        let minus = -Rational::one();
         match free.as_slice() {
             [(factor, [left, right])] if left == right => {
                 let by = factor.recip();
@@ -362,7 +361,7 @@ impl Told {
                         is_good.then_some((Quadratic::symbol(number), Some(root)))?
                     }
                 };
-                let sides = [&minus, &BigRational::one()].map(|by| sum(left, by, &symbol));
+                let sides = [&minus, &Rational::one()].map(|by| sum(left, by, &symbol));
                 with(sides.to_vec(), range)
             }
             [(_, [left, right])] if is_zero && moves(left) && moves(right) => {
@@ -379,7 +378,7 @@ impl Told {
                 pairs.into_iter().find_map(|(shared, other, again, third)| {
                     let by = match () {
                         () if shared == again => g / f,
-                        () if sum(shared, &BigRational::one(), again).is_nothing() => -(g / f),
+                        () if sum(shared, &Rational::one(), again).is_nothing() => -(g / f),
                         () => return None,
                     };
                     let rest = sum(other, &by, third);
@@ -537,7 +536,7 @@ fn put_everywhere(
     let own = own.filter(|i| view.unknowns.contains(i));
     let pivot = own.min_by_key(|&i| is_in(i))?;
     let by = row.linear.remove(&pivot)?;
-    let mut sum = Quadratic::constant(BigRational::zero());
+    let mut sum = Quadratic::constant(Rational::zero());
     sum.add(&-by.recip(), &row);
     for (_, other) in linear.iter_mut().enumerate().filter(|(j, _)| *j != k) {
         other.put(pivot, &sum);
@@ -577,8 +576,8 @@ mod tests {
     use crate::interval::checked;
     use crate::problem::Problem;
 
-    fn ratio(a: i64, b: i64) -> BigRational {
-        BigRational::new(BigInt::from(a), BigInt::from(b))
+    fn ratio(a: i64, b: i64) -> Rational {
+        Rational::new(BigInt::from(a), BigInt::from(b))
     }
 
     #[test]
@@ -609,7 +608,7 @@ mod tests {
     }
 
     /// Every choice of sides, one after the other, of all equations in one block: how many contradict each other, and the values where they do not.
-    fn choices(text: &str) -> (usize, Vec<Vec<(usize, BigRational)>>) {
+    fn choices(text: &str) -> (usize, Vec<Vec<(usize, Rational)>>) {
         let problem = Problem::parse(text, "test.toml").unwrap();
         let homotopy = Homotopy::for_sets(&problem).unwrap();
         let all: Vec<usize> = (0..homotopy.equations).collect();

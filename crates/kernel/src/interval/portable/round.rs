@@ -124,16 +124,16 @@ pub fn div_down(a: f64, b: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use num_rational::BigRational;
+    use crate::rational::Rational;
     use proptest::prelude::*;
 
-    fn exact(x: f64) -> BigRational {
-        BigRational::from_float(x).expect("a finite float")
+    fn exact(x: f64) -> Rational {
+        Rational::from_float(x).expect("a finite float")
     }
 
     /// `down` and `up` enclose the number, with nothing but the number between them: its neighbours, or
     /// itself twice.
-    fn encloses(number: &BigRational, down: f64, up: f64, tiny: bool) {
+    fn encloses(number: &Rational, down: f64, up: f64, tiny: bool) {
         assert!(
             exact(down) <= *number && *number <= exact(up),
             "{down:e} {up:e}"

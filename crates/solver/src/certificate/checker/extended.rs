@@ -144,14 +144,14 @@ mod tests {
     use crate::equations::Form;
     use crate::interval::rounding::gamma;
     use crate::problem::Problem;
+    use crate::rational::Rational;
     use crate::system::Homotopy;
-    use num_rational::BigRational;
 
-    fn exact(x: f64) -> BigRational {
-        BigRational::from_float(x).unwrap()
+    fn exact(x: f64) -> Rational {
+        Rational::from_float(x).unwrap()
     }
 
-    fn holds(x: Interval, value: &BigRational, room: f64) -> bool {
+    fn holds(x: Interval, value: &Rational, room: f64) -> bool {
         exact(x.inf()) <= value + exact(room) && value - exact(room) <= exact(x.sup())
     }
 
@@ -180,7 +180,7 @@ mod tests {
                     z[m] = 0.0;
                     curve.push(z).unwrap();
                 }
-                let mut z: Vec<Vec<BigRational>> = Vec::new();
+                let mut z: Vec<Vec<Rational>> = Vec::new();
                 for z_k in &curve.z {
                     z.push(z_k.iter().map(|&x| exact(x)).collect());
                 }
@@ -189,7 +189,7 @@ mod tests {
                     let near = exact(high[i]) + exact(low[i]) - &*x;
                     assert!(near < exact(1e-27) && near > exact(-1e-27));
                 }
-                let zero = || BigRational::from_integer(0.into());
+                let zero = || Rational::from_integer(0.into());
                 for k in 0..=2 * ORDER {
                     let found = if k == 0 {
                         curve.value()
@@ -230,7 +230,7 @@ mod tests {
                             for a in k.saturating_sub(ORDER)..=k.min(ORDER) {
                                 let product = form(term.left, a) * form(term.right, k - a);
                                 let half = 0.5 * f64::from(term.factor);
-                                size += (half * product.to_f64().unwrap()).abs();
+                                size += (half * product.to_f64()).abs();
                             }
                         }
                         let value = coefficient(0) - &right;

@@ -466,13 +466,12 @@ mod tests {
     use super::super::guess::Inverse;
     use super::*;
     use crate::problem::Problem;
+    use crate::rational::Rational;
     use crate::system::Homotopy;
-    use num_rational::BigRational;
-    use num_traits::{Signed, ToPrimitive, Zero};
     use proptest::prelude::*;
 
-    fn ratio(x: f64) -> BigRational {
-        BigRational::from_float(x).unwrap()
+    fn ratio(x: f64) -> Rational {
+        Rational::from_float(x).unwrap()
     }
 
     /// A triangle with E_e(t) that floats are: with a bend, of degree 4.
@@ -521,10 +520,10 @@ mod tests {
         rights.all(|e| e.wid() == 0.0)
     }
 
-    type Polynomial = Vec<BigRational>;
+    type Polynomial = Vec<Rational>;
 
-    fn zero() -> BigRational {
-        BigRational::zero()
+    fn zero() -> Rational {
+        Rational::zero()
     }
 
     fn times(a: &Polynomial, b: &Polynomial) -> Polynomial {
@@ -544,7 +543,7 @@ mod tests {
             .collect()
     }
 
-    fn value(p: &Polynomial, s: &BigRational) -> BigRational {
+    fn value(p: &Polynomial, s: &Rational) -> Rational {
         p.iter().rev().fold(zero(), |sum, x| sum * s + x)
     }
 
@@ -677,14 +676,14 @@ mod tests {
                 let change = (0..n).fold(zero(), |sum, k| sum + entry(a, i, k) * entry(&inverse.y, k, e));
                 entry(&inverse.y, i, e) - &s * change
             };
-            let y: Vec<Vec<BigRational>> = (0..n).map(|i| (0..n).map(|e| moved(i, e)).collect()).collect();
-            let most = |v: &dyn Fn(usize) -> BigRational| (0..n).map(|i| v(i).abs()).max().unwrap();
-            let image = |f: &[BigRational]| most(&|i| (0..f.len()).fold(zero(), |sum, e| sum + &y[i][e] * &f[e]));
-            let f: Vec<BigRational> = rows.iter().map(|(f, _)| value(f, &s)).collect();
+            let y: Vec<Vec<Rational>> = (0..n).map(|i| (0..n).map(|e| moved(i, e)).collect()).collect();
+            let most = |v: &dyn Fn(usize) -> Rational| (0..n).map(|i| v(i).abs()).max().unwrap();
+            let image = |f: &[Rational]| most(&|i| (0..f.len()).fold(zero(), |sum, e| sum + &y[i][e] * &f[e]));
+            let f: Vec<Rational> = rows.iter().map(|(f, _)| value(f, &s)).collect();
             let growing = s.abs() * ratio(test.growing.sup());
             prop_assert!(image(&f) <= ratio(test.constant.sup()) + growing);
             let slopes = |f: &Polynomial| -> Polynomial { f.iter().enumerate().skip(1).map(|(k, x)| x * ratio(k as f64)).collect() };
-            let f: Vec<BigRational> = rows.iter().map(|(f, _)| value(&slopes(f), &s)).collect();
+            let f: Vec<Rational> = rows.iter().map(|(f, _)| value(&slopes(f), &s)).collect();
             prop_assert!(image(&f) <= ratio(test.defect_slope.sup()));
 
             // At ẑ(σ), and beside it.
@@ -693,7 +692,7 @@ mod tests {
                 let place: Vec<Polynomial> = (0..n)
                     .map(|i| vec![way(i) + ratio(rho) * ratio(off[i]) * ratio(u[i])])
                     .collect();
-                let mut all: Vec<Vec<BigRational>> = exactly(&eq, &place)
+                let mut all: Vec<Vec<Rational>> = exactly(&eq, &place)
                     .into_iter()
                     .map(|(_, j)| j.iter().map(|j| value(j, &s)).collect())
                     .collect();
@@ -704,10 +703,10 @@ mod tests {
                 };
                 let norm = most(&|i| (0..n).fold(zero(), |sum, k| sum + defect(i, k).abs()));
                 let q = test.contraction(exact(rho));
-                prop_assert!(norm <= ratio(q.sup().min(f64::MAX)), "{rho:e}: {:e} {q:?}", norm.to_f64().unwrap());
+                prop_assert!(norm <= ratio(q.sup().min(f64::MAX)), "{rho:e}: {:e} {q:?}", norm.to_f64());
 
-                let direction: Vec<BigRational> = z.iter().map(|z| value(&slopes(z), &s)).collect();
-                let turned: Vec<BigRational> = (0..eq.m)
+                let direction: Vec<Rational> = z.iter().map(|z| value(&slopes(z), &s)).collect();
+                let turned: Vec<Rational> = (0..eq.m)
                     .map(|e| {
                         let there = |i: usize| &all[e][i] - value(&rows[e].1[i], &s);
                         (0..n).fold(zero(), |sum, i| sum + there(i) * &direction[i])

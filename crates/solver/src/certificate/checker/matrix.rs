@@ -163,12 +163,11 @@ impl Matrix {
 #[cfg(test)]
 pub mod tests {
     use super::*;
-    use num_rational::BigRational;
-    use num_traits::{Signed, Zero};
+    use crate::rational::Rational;
     use proptest::prelude::*;
 
-    pub fn ratio(x: f64) -> BigRational {
-        BigRational::from_float(x).unwrap()
+    pub fn ratio(x: f64) -> Rational {
+        Rational::from_float(x).unwrap()
     }
 
     /// Floats of any size up to 1e60, subnormal ones and zero.
@@ -182,22 +181,22 @@ pub mod tests {
         entries.prop_map(move |entries| Matrix { n, entries })
     }
 
-    pub fn at(matrix: &Matrix, i: usize, j: usize) -> BigRational {
+    pub fn at(matrix: &Matrix, i: usize, j: usize) -> Rational {
         ratio(matrix.entries[j * matrix.n + i])
     }
 
     /// The largest sum of a row's sizes.
-    pub fn norm(n: usize, entry: impl Fn(usize, usize) -> BigRational) -> BigRational {
+    pub fn norm(n: usize, entry: impl Fn(usize, usize) -> Rational) -> Rational {
         let row = |i: usize| {
             (0..n)
                 .map(|j| entry(i, j).abs())
-                .fold(BigRational::zero(), |a, b| a + b)
+                .fold(Rational::zero(), |a, b| a + b)
         };
         (0..n).map(row).max().unwrap()
     }
 
-    pub fn sum(terms: impl Iterator<Item = BigRational>) -> BigRational {
-        terms.fold(BigRational::zero(), |a, b| a + b)
+    pub fn sum(terms: impl Iterator<Item = Rational>) -> Rational {
+        terms.fold(Rational::zero(), |a, b| a + b)
     }
 
     pub const N: usize = 5;

@@ -5,9 +5,8 @@ use crate::equations::Form;
 use crate::interval::complex::Complex;
 use crate::interval::{DoubleDouble, Interval, point};
 use crate::problem::{Problem, Target};
+use crate::rational::Rational;
 use crate::system::Term;
-use num_rational::BigRational;
-use num_traits::Signed;
 
 /// The equations |p − q|² = d², where coordinates that the fixed points do not have are zero.
 #[derive(Debug)]
@@ -25,7 +24,7 @@ pub struct Equations {
 }
 
 /// The square of a distance.
-pub fn square(target: &Target) -> BigRational {
+pub fn square(target: &Target) -> Rational {
     match target {
         Target::Length(length) => length.value() * length.value(),
         Target::SquaredLength(squared) => squared.value().clone(),
@@ -64,7 +63,7 @@ impl Equations {
                 let (u, v, w) = (between(a, b)?, between(a, c)?, between(b, c)?);
                 let twice = &u + &v - w;
                 // Sixteen times the squared area. Otherwise the triangle has no proper place, or none with real coordinates.
-                let area = BigRational::from_integer(4.into()) * u * v - &twice * &twice;
+                let area = Rational::from_integer(4.into()) * u * v - &twice * &twice;
                 if !area.is_positive() {
                     return Err("the fixed points are in line".to_owned());
                 }

@@ -19,9 +19,8 @@ use super::zero::{Quadratic, Z, Zero};
 use crate::equations::Form;
 use crate::interval::{Interval, Real, enclose_rational, point};
 use crate::problem::{Problem, Target};
+use crate::rational::Rational;
 use crate::system::Term;
-use num_rational::BigRational;
-use num_traits::{Signed, Zero as _};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -58,7 +57,7 @@ enum Part {
 struct Chart {
     parts: Vec<Part>,
     /// ν in L, zero elsewhere.
-    heights: Vec<BigRational>,
+    heights: Vec<Rational>,
     /// Edges in L from the lower to the upper point: first those of a tree, each of which joins a new point to those before, then the
     /// one that closes the cycle.
     edges: Vec<[usize; 2]>,
@@ -76,7 +75,7 @@ fn doubt<T>(text: &str) -> Result<T, ComplexFlaw> {
 }
 
 /// The length of a distance, if it is a ratio.
-fn length(target: &Target) -> Option<BigRational> {
+fn length(target: &Target) -> Option<Rational> {
     match target {
         Target::Length(length) => Some(length.value().clone()),
         squared => Real::from(square(squared)).sqrt().as_rational().cloned(),
@@ -117,7 +116,7 @@ impl Chart {
             return doubt("no point goes, or none has a neighbour that goes, or none stays");
         };
         // Edges in L, upwards, with their lengths.
-        let mut among: Vec<([usize; 2], BigRational)> = Vec::new();
+        let mut among: Vec<([usize; 2], Rational)> = Vec::new();
         for distance in &problem.distances {
             let [a, b] = distance.points;
             if parts[a] != Part::Link || parts[b] != Part::Link {
@@ -143,8 +142,8 @@ impl Chart {
         if among.len() != link().count() {
             return doubt("the neighbours' distances do not make one cycle");
         }
-        let mut heights: Vec<Option<BigRational>> = vec![None; n];
-        heights[origin] = Some(BigRational::zero());
+        let mut heights: Vec<Option<Rational>> = vec![None; n];
+        heights[origin] = Some(Rational::zero());
         let (mut edges, mut rest) = (Vec::new(), among.clone());
         while let Some(k) = rest
             .iter()
@@ -163,8 +162,7 @@ impl Chart {
         }
         // As many edges as points: one is left, and closes the cycle.
         edges.extend(rest.iter().map(|(ends, _)| *ends));
-        let heights: Vec<BigRational> =
-            heights.into_iter().map(Option::unwrap_or_default).collect();
+        let heights: Vec<Rational> = heights.into_iter().map(Option::unwrap_or_default).collect();
         if among
             .iter()
             .any(|([low, high], length)| &heights[*high] - &heights[*low] != *length)
@@ -174,11 +172,11 @@ impl Chart {
         if !link()
             .map(|p| &heights[p])
             .find(|h| !h.is_zero())
-            .is_some_and(Signed::is_positive)
+            .is_some_and(Rational::is_positive)
         {
             return wrong("the first ν that is not zero is not positive");
         }
-        let value = |whole: i64| BigRational::from_integer(whole.into());
+        let value = |whole: i64| Rational::from_integer(whole.into());
         let mut values = vec![
             (unknown(origin, LAMBDA), value(0)),
             (unknown(origin, SIGMA), value(0)),
@@ -240,7 +238,7 @@ impl Chart {
 }
 
 /// The equations at ε = 0, where these unknowns have these values.
-fn equations(problem: &Problem, parts: &[Part], values: Vec<(usize, BigRational)>) -> Quadratic {
+fn equations(problem: &Problem, parts: &[Part], values: Vec<(usize, Rational)>) -> Quadratic {
     let count = 3 * problem.points.len();
     let term = |left, right| Term::new(2, left, right);
     let mut equations = Vec::with_capacity(count);
@@ -313,7 +311,7 @@ mod tests {
 
     /// Point 0 goes, 1, 2 and 3 are its neighbours at ν = 0, 1, 3, point 4 stays.
     fn is_regular(values: [[i64; 3]; 5]) -> bool {
-        let whole = |value: i64| BigRational::from_integer(value.into());
+        let whole = |value: i64| Rational::from_integer(value.into());
         let equation = |(unknown, &value): (usize, &i64)| {
             let term = Term::new(2, Form::Difference(Some(unknown), None), Form::One);
             (vec![term], whole(value))

@@ -22,9 +22,9 @@ use crate::equations::Form;
 use crate::interval::complex::{Complex, Number};
 use crate::interval::rounding::{UNDERFLOW, in_range, round_up};
 use crate::interval::{Ball, DoubleDouble, Interval, gamma_double, hull, point};
+use crate::rational::Rational;
 use crate::system::Term;
 use num_bigint::BigInt;
-use num_rational::BigRational;
 use num_traits::{Float, Signed, ToPrimitive};
 
 /// A complex number in double-doubles.
@@ -104,7 +104,7 @@ fn whole(x: DoubleDouble) -> BigInt {
 
 impl Quadratic {
     /// Of equations with these terms and right-hand sides.
-    pub fn new(unknowns: usize, equations: Vec<(Vec<Term>, BigRational)>) -> Self {
+    pub fn new(unknowns: usize, equations: Vec<(Vec<Term>, Rational)>) -> Self {
         let equations = equations.into_iter();
         let exact = equations.map(|(terms, right)| (terms, Ball::exactly(right)));
         Self::enclosing(unknowns, exact.collect())
@@ -112,8 +112,8 @@ impl Quadratic {
 
     /// The same with right-hand sides that are somewhere in these.
     pub fn enclosing(unknowns: usize, equations: Vec<(Vec<Term>, Ball)>) -> Self {
-        let unit = BigRational::from_integer(BigInt::from(2) << BITS as u32);
-        let scale = BigRational::from_integer(BigInt::from(2) << (2 * BITS as u32));
+        let unit = Rational::from_integer(BigInt::from(2) << BITS as u32);
+        let scale = Rational::from_integer(BigInt::from(2) << (2 * BITS as u32));
         let row = |(terms, right): (Vec<Term>, Ball)| Row {
             terms,
             right: (right.middle * &scale).floor().to_integer(),
@@ -394,14 +394,13 @@ impl Zero {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use num_traits::Zero as _;
 
-    fn ratio(x: f64) -> BigRational {
-        BigRational::from_float(x).unwrap()
+    fn ratio(x: f64) -> Rational {
+        Rational::from_float(x).unwrap()
     }
 
     /// x² = square.
-    fn root(square: BigRational) -> Quadratic {
+    fn root(square: Rational) -> Quadratic {
         let x = Form::Difference(Some(0), None);
         Quadratic::new(1, vec![(vec![Term::new(2, x, x)], square)])
     }
@@ -437,7 +436,7 @@ mod tests {
             );
         }
         for near in [0.0, 1e-30, 1e-9, 0.1] {
-            assert!(root(BigRational::zero()).prove(&at(near, 0.0)).is_none());
+            assert!(root(Rational::zero()).prove(&at(near, 0.0)).is_none());
         }
         for near in [f64::NAN, f64::INFINITY, f64::MAX, 1e31] {
             assert!(root(ratio(2.0)).prove(&at(near, 0.0)).is_none());

@@ -17,7 +17,7 @@ use crate::complete::search::Run as Watched;
 use crate::complete::{Constructed, Part, Why};
 use crate::interval::Interval;
 use crate::order::InOrder;
-use num_rational::BigRational;
+use crate::rational::Rational;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
@@ -59,7 +59,7 @@ pub struct Found {
 }
 
 /// Unknowns with their exact numbers.
-pub type Values = Vec<(usize, BigRational)>;
+pub type Values = Vec<(usize, Rational)>;
 
 /// Parts that are searched each by itself.
 const PIECES: usize = 64;

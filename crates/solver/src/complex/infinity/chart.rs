@@ -15,9 +15,8 @@ use crate::equations::Form;
 use crate::interval::complex::Number;
 use crate::interval::{DoubleDouble, Interval, enclose_rational, point};
 use crate::order::InOrder;
+use crate::rational::Rational;
 use crate::system::Term;
-use num_rational::BigRational;
-use num_traits::Zero;
 
 /// A point belongs to those that go where it is so much farther than the next nearer one, in typical lengths.
 const GAP: f64 = 1e3;
@@ -139,14 +138,14 @@ fn system(graph: &Graph, split: &Split) -> Option<System> {
         flips: [false; 3],
     });
     let mut equations = Vec::with_capacity(count);
-    let mut push = |terms: Vec<Term>, value: BigRational| {
+    let mut push = |terms: Vec<Term>, value: Rational| {
         equations.push(Equation {
             name: String::new(),
             terms,
             power: 0,
             right: Kind::Fixed(Exact {
                 re: value,
-                im: BigRational::zero(),
+                im: Rational::zero(),
             }),
             bows: false,
         });
@@ -183,8 +182,8 @@ fn system(graph: &Graph, split: &Split) -> Option<System> {
         push(vec![heights, product(lambda, sigma)], squared.clone());
     }
     let (origin, near, away) = (split.link[0], split.outside[0], split.inside[0]);
-    let whole = |value: i64| BigRational::from_integer(value.into());
-    let mut values: Vec<(usize, BigRational)> = vec![
+    let whole = |value: i64| Rational::from_integer(value.into());
+    let mut values: Vec<(usize, Rational)> = vec![
         (unknown(origin, LAMBDA), whole(0)),
         (unknown(origin, SIGMA), whole(0)),
         (unknown(near, NU), whole(0)),

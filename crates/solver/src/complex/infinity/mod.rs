@@ -65,8 +65,8 @@ use super::system::Signs;
 use crate::interval::DoubleDouble;
 use crate::interval::complex::Complex;
 use crate::problem::{Distance, Problem};
+use crate::rational::Rational;
 use chart::prove;
-use num_rational::BigRational;
 pub use split::{Edge, Split};
 
 /// Distances of a problem in space whose figures can go to infinity, in the system's unit.
@@ -87,7 +87,7 @@ impl Graph {
         if problem.dimension != 3 || !problem.is_distances_only() {
             return None;
         }
-        let unit = BigRational::from_float(unit)?;
+        let unit = Rational::from_float(unit)?;
         let per_square = (&unit * &unit).recip();
         let edge = |distance: &Distance| {
             let squared = distance.target.squared() * &per_square;
@@ -143,12 +143,12 @@ pub(super) fn enter(
 }
 
 /// A number's square root, if that is a ratio.
-fn root(squared: &BigRational) -> Option<BigRational> {
+fn root(squared: &Rational) -> Option<Rational> {
     let root = |x: &num_bigint::BigInt| {
         let near = x.sqrt();
         (&near * &near == *x).then_some(near)
     };
-    Some(BigRational::new(
+    Some(Rational::new(
         root(squared.numer())?,
         root(squared.denom())?,
     ))

@@ -1,7 +1,6 @@
 //! Which points go to infinity, and the signs with which lengths add up to zero among their neighbours.
 
-use num_rational::BigRational;
-use num_traits::{Signed, Zero};
+use crate::rational::Rational;
 
 /// A distance.
 #[derive(Debug, Clone, PartialEq)]
@@ -9,9 +8,9 @@ pub struct Edge {
     /// Between these points.
     pub points: [usize; 2],
     /// Its square.
-    pub squared: BigRational,
+    pub squared: Rational,
     /// Itself, if it is a ratio.
-    pub length: Option<BigRational>,
+    pub length: Option<Rational>,
 }
 
 /// How points go to infinity. Two of the same problem are equal if the same points go with the same signs of lengths: points stand
@@ -25,7 +24,7 @@ pub struct Split {
     /// All others.
     pub outside: Vec<usize>,
     /// For each neighbour its ν: the coordinate in the isotropic plane of which distances there are differences.
-    pub heights: Vec<BigRational>,
+    pub heights: Vec<Rational>,
     /// The points of the one cycle among the neighbours, in order.
     pub cycle: Vec<usize>,
 }
@@ -62,7 +61,7 @@ impl Split {
         nu: impl Fn(usize) -> f64,
     ) -> Option<Self> {
         let place = |p: usize| link.iter().position(|&q| q == p);
-        let among: Vec<([usize; 2], &BigRational)> = edges
+        let among: Vec<([usize; 2], &Rational)> = edges
             .iter()
             .filter_map(|edge| {
                 let [a, b] = edge.points;
@@ -73,8 +72,8 @@ impl Split {
         if among.len() != link.len() || among.iter().any(|(_, length)| length.is_zero()) {
             return None;
         }
-        let mut heights: Vec<Option<BigRational>> = vec![None; link.len()];
-        heights[0] = Some(BigRational::zero());
+        let mut heights: Vec<Option<Rational>> = vec![None; link.len()];
+        heights[0] = Some(Rational::zero());
         // Each round reaches the neighbours of what was reached.
         for _ in 0..link.len() {
             for &([a, b], length) in &among {
@@ -91,8 +90,8 @@ impl Split {
                 }
             }
         }
-        let mut heights: Vec<BigRational> = heights.into_iter().collect::<Option<_>>()?;
-        let is_kept = |&([a, b], length): &([usize; 2], &BigRational)| {
+        let mut heights: Vec<Rational> = heights.into_iter().collect::<Option<_>>()?;
+        let is_kept = |&([a, b], length): &([usize; 2], &Rational)| {
             (&heights[a] - &heights[b]).abs() == *length
         };
         if !among.iter().all(is_kept) {
@@ -121,7 +120,7 @@ impl Split {
     }
 
     /// ν of a neighbour.
-    pub fn height(&self, point: usize) -> Option<&BigRational> {
+    pub fn height(&self, point: usize) -> Option<&Rational> {
         let place = self.link.iter().position(|&p| p == point)?;
         Some(&self.heights[place])
     }
@@ -157,7 +156,7 @@ mod tests {
     use super::*;
 
     fn edge(points: [usize; 2], length: i64) -> Edge {
-        let length = BigRational::from_integer(length.into());
+        let length = Rational::from_integer(length.into());
         Edge {
             points,
             squared: &length * &length,
@@ -192,7 +191,7 @@ mod tests {
         );
         let parts = [inside, link, outside];
         let split = Split::new(parts.clone(), &edges, rough).unwrap();
-        let whole = |h: &BigRational| h.to_integer().try_into().unwrap();
+        let whole = |h: &Rational| h.to_integer().try_into().unwrap();
         let heights: Vec<i64> = split.heights.iter().map(whole).collect();
         assert_eq!(heights, [0, 1, 5, 3]);
         // The mirror image is the same.

@@ -65,7 +65,7 @@ impl Kind for Angles {
         let (first, second) = directions(&mut of.items, low)?;
         let target = if first.1 == second.1 {
             Real::cosine_of_degrees(degrees)
-        } else if degrees > BigRational::from_integer(90.into()) {
+        } else if degrees > Rational::from_integer(90.into()) {
             return Err("an angle between a line and a plane is at most 90 degrees".to_owned());
         } else {
             Real::sine_of_degrees(degrees)
@@ -186,7 +186,7 @@ fn between(
 }
 
 /// Of a cosine and the opposite number the one that is nearer to the cosine of which `now` has the sign.
-fn nearer(low: &mut Lowering, now: &BigRational, target: Real) -> Real {
+fn nearer(low: &mut Lowering, now: &Rational, target: Real) -> Real {
     match low.sense(is_opposite_nearer(now, &target)) {
         true => -&target,
         false => target,
@@ -194,7 +194,7 @@ fn nearer(low: &mut Lowering, now: &BigRational, target: Real) -> Real {
 }
 
 /// Whether the opposite of a cosine is nearer than itself to the cosine of which `now` has the sign.
-pub fn is_opposite_nearer(now: &BigRational, cosine: &Real) -> bool {
+pub fn is_opposite_nearer(now: &Rational, cosine: &Real) -> bool {
     // A right angle is as near from below as from above, and what a drawing shows of the sign is what rounding left: which of
     // both angles it is is told by the order of the lines' ends, from the first to the second.
     !cosine.is_zero() && now.is_negative() == (cosine.enclose().inf() > 0.0) && !now.is_zero()

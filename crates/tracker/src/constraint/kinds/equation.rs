@@ -61,8 +61,8 @@ impl Kind for Equations {
 }
 
 /// The terms with what the atoms are, and the number that stands by itself.
-fn sum_of(terms: &Terms, atoms: &[Number]) -> (Sum, BigRational) {
-    let mut constant = BigRational::zero();
+fn sum_of(terms: &Terms, atoms: &[Number]) -> (Sum, Rational) {
+    let mut constant = Rational::zero();
     let mut sum = Sum::new();
     for (term, coefficient) in terms {
         match term.is_empty() {

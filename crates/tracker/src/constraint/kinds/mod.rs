@@ -75,8 +75,8 @@ mod prelude {
     pub use super::super::polynomial::multiply;
     pub use super::super::quadratic::{Form, Product, value};
     pub use crate::interval::Real;
+    pub use crate::rational::Rational;
     pub use crate::statement::{Constraint, Item, Problem};
-    pub use num_rational::BigRational;
     pub use num_traits::{Signed, Zero};
 
     /// All points that are named, each once.
@@ -93,7 +93,7 @@ mod prelude {
     }
 
     /// The number with the sign of `like`, unless that is zero.
-    pub fn with_sign(like: &BigRational, number: Real) -> Option<Real> {
+    pub fn with_sign(like: &Rational, number: Real) -> Option<Real> {
         match (like.is_zero(), like.is_negative()) {
             (true, _) => None,
             (_, true) => Some(-&number),

@@ -140,13 +140,13 @@ fn touch(
     name: &str,
     low: &mut Lowering,
     mut products: Vec<crate::constraint::Product>,
-    now: BigRational,
+    now: Rational,
     along: &Arrow,
     round: &Round,
 ) -> Result<(), Fault> {
     let apart = with_sign(&now, Real::whole(1));
     let side = match &apart {
-        Some(one) if one.as_rational().is_some_and(Signed::is_negative) => -1,
+        Some(one) if one.as_rational().is_some_and(Rational::is_negative) => -1,
         Some(_) => 1,
         None => {
             return Err(CENTRE.to_owned());

@@ -8,9 +8,9 @@ use super::{Arrow, Fault, Lowering, Parity, Place};
 use crate::interval::Real;
 use crate::order::InOrder;
 use crate::places::Each as _;
+use crate::rational::Rational;
 use crate::statement::{Constraint, Item, JointSort, Shape};
-use num_rational::BigRational;
-use num_traits::{One, ToPrimitive, Zero};
+use num_traits::ToPrimitive;
 use std::array::from_fn;
 use std::rc::Rc;
 
@@ -27,7 +27,7 @@ pub struct Assembled {
     /// The origins of the bodies, in the order of the plan.
     origins: Vec<Origin>,
     /// Of joints with a travel that is an unknown, by number among the objects: it, and its value in the sketch.
-    travels: Vec<(usize, Entry, BigRational)>,
+    travels: Vec<(usize, Entry, Rational)>,
 }
 
 /// How bodies that always turn together are turned.
@@ -102,10 +102,10 @@ impl Sum {
 }
 
 /// A ratio next to a number: where a path begins need be no more exact.
-fn near(of: &Real) -> BigRational {
+fn near(of: &Real) -> Rational {
     match of.as_rational() {
         Some(exact) => exact.clone(),
-        None => BigRational::from_float(of.enclose().mid()).unwrap_or_default(),
+        None => Rational::from_float(of.enclose().mid()).unwrap_or_default(),
     }
 }
 
@@ -372,7 +372,9 @@ impl Lowering<'_> {
         let name = format!("a direction of {}", self.problem.objects[body].name);
         match &sum.parts[..] {
             [] => return self.standing(&name, &sum.constant),
-            [(one, arrow)] if one.as_rational().is_some_and(One::is_one) => return arrow.clone(),
+            [(one, arrow)] if one.as_rational().is_some_and(Rational::is_one) => {
+                return arrow.clone();
+            }
             _ => {}
         }
         let at = sum.at().map(Real::from);
@@ -481,7 +483,7 @@ impl Lowering<'_> {
         apart: &Sum,
         (along, sign): (&Vector, i32),
     ) -> Entry {
-        let at = dot(&apart.at(), along) * BigRational::from_integer(sign.into());
+        let at = dot(&apart.at(), along) * Rational::from_integer(sign.into());
         let name = format!("the travel of {}", self.problem.objects[joint].name);
         let entry = self.scalar(name, 1, Parity::Even, at.clone().into());
         made.travels.push((joint, entry, at));
@@ -530,7 +532,7 @@ impl Lowering<'_> {
         &mut self,
         name: &str,
         joint: usize,
-        degrees: &BigRational,
+        degrees: &Rational,
     ) -> Result<(), Fault> {
         let made = self.assembled()?;
         let (_, sort, bodies, frames) = joints(self.problem)

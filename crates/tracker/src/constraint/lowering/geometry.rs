@@ -6,9 +6,8 @@ use super::super::quadratic::{Entry, Form, Nonzero, Product, Role, coordinate, d
 use super::{Fault, Lowering, Parity, Start};
 use crate::interval::Real;
 use crate::places::{Each as _, array};
+use crate::rational::Rational;
 use crate::statement::{AXES, Target};
-use num_rational::BigRational;
-use num_traits::One;
 
 /// A point, or the base of a line of its own: what its coordinates are in equations, and where it is
 /// in the sketch.
@@ -99,7 +98,7 @@ impl Lowering<'_> {
 
     /// A unit vector along an axis of the user's frame.
     pub fn axis(&self, axis: usize) -> Arrow {
-        let one = BigRational::one;
+        let one = Rational::one;
         let is_it = |k: usize| k == axis;
         Arrow {
             forms: array(|k| {

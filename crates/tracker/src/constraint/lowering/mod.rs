@@ -20,9 +20,8 @@ use super::polynomial::{Polynomial, ramp};
 use super::quadratic::{Entry, Equation, Form, MAX_DEGREE, Product, Role, Tail, Unknown, value};
 use crate::interval::Real;
 use crate::places::array;
+use crate::rational::Rational;
 use crate::statement::{Item, Problem, Target};
-use num_rational::BigRational;
-use num_traits::Zero;
 use std::collections::HashMap;
 use std::rc::Rc;
 
@@ -312,7 +311,7 @@ impl<'a> Lowering<'a> {
     /// The equation of a distance of the problem, for t = 1 alone. Those of all distances come first, in order.
     pub fn distance_for_sets(&mut self, index: usize) {
         let distance = &self.problem.distances[index];
-        let half = BigRational::new(1.into(), 2.into());
+        let half = Rational::new(1.into(), 2.into());
         let right = vec![Real::from(distance.target.squared() * half)];
         let name = self.problem.distance_name(index);
         let equation = self.half_square(name, distance.points, right);

@@ -3,10 +3,10 @@
 use super::super::quadratic::{Entry, Form, Product, Role, difference, value};
 use super::{Fault, Lowering, Parity};
 use crate::interval::Real;
+use crate::rational::Rational;
 use crate::statement::Shape;
 use num_bigint::BigInt;
 use num_integer::Integer;
-use num_rational::BigRational;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 use std::cmp::Reverse;
 use std::collections::HashMap;
@@ -22,7 +22,7 @@ pub struct Number {
 }
 
 /// A sum of products of numbers, each with a coefficient that is not zero; none is empty.
-pub type Sum = Vec<(BigRational, Vec<Number>)>;
+pub type Sum = Vec<(Rational, Vec<Number>)>;
 
 /// What a number was made of: what is there once has one unknown.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
@@ -36,7 +36,7 @@ pub(super) enum Made {
     /// Two numbers multiplied.
     Product([Entry; 2]),
     /// A constant.
-    Constant(BigRational),
+    Constant(Rational),
 }
 
 /// Whole coefficients up to this are factors of products (those have ½ before them, and go to 1000); all others are constants
@@ -106,7 +106,7 @@ impl Lowering<'_> {
     pub fn root_number(
         &mut self,
         mut sum: Sum,
-        constant: BigRational,
+        constant: Rational,
         of: &str,
     ) -> Result<Number, Fault> {
         let inner = &evaluated(&sum) + &Real::from(constant.clone());
@@ -117,7 +117,7 @@ impl Lowering<'_> {
         let name = format!("a root in {of}");
         let entry = self.unknown(name.clone(), Role::Positive, 0, [false; 3], at.clone());
         let root = Number { entry, at, name };
-        sum.push((-BigRational::one(), vec![root.clone(), root.clone()]));
+        sum.push((-Rational::one(), vec![root.clone(), root.clone()]));
         self.sum(&root.name, sum, &-&Real::from(constant));
         Ok(root)
     }
@@ -126,7 +126,7 @@ impl Lowering<'_> {
     pub fn inverse_number(
         &mut self,
         sum: Sum,
-        constant: BigRational,
+        constant: Rational,
         of: &str,
     ) -> Result<Number, Fault> {
         let divisor = &evaluated(&sum) + &Real::from(constant.clone());
@@ -209,7 +209,7 @@ impl Lowering<'_> {
             };
             let (other, with) = terms.remove(k);
             let less = match &with[..] {
-                [_] => self.constant(BigRational::new((-other).into(), factor.into())),
+                [_] => self.constant(Rational::new((-other).into(), factor.into())),
                 [c, d] if c.entry == common.entry => d.clone(),
                 [c, ..] => c.clone(),
                 [] => unreachable!("no term is empty"),
@@ -263,7 +263,7 @@ impl Lowering<'_> {
         self.kept(made, Number { entry, at, name })
     }
 
-    fn constant(&mut self, number: BigRational) -> Number {
+    fn constant(&mut self, number: Rational) -> Number {
         let made = Made::Constant(number.clone());
         if let Some(number) = self.numbers.get(&made) {
             return number.clone();
@@ -320,10 +320,10 @@ fn evaluated(sum: &Sum) -> Real {
 }
 
 /// By what coefficients are multiplied, so that they are whole numbers without a common factor; 1 where some are too large then.
-fn scale(sum: &Sum) -> BigRational {
+fn scale(sum: &Sum) -> Rational {
     let denominators = sum.iter().map(|(c, _)| c.denom());
     let common = denominators.fold(BigInt::one(), |all, one| all.lcm(one));
-    let whole = |c: &BigRational| (c * &common).to_integer();
+    let whole = |c: &Rational| c.numer() * (&common / c.denom());
     let divisor = sum
         .iter()
         .fold(BigInt::zero(), |all, (c, _)| all.gcd(&whole(c)));
@@ -334,7 +334,7 @@ fn scale(sum: &Sum) -> BigRational {
     };
     let largest = sum.iter().map(|(c, _)| whole(c).abs() / &divisor).max();
     match largest.is_some_and(|largest| largest <= LARGEST.into()) {
-        true => BigRational::new(common, divisor),
-        false => BigRational::one(),
+        true => Rational::new(common, divisor),
+        false => Rational::one(),
     }
 }

@@ -5,14 +5,14 @@ use super::super::polynomial::{add, multiply};
 use super::super::quadratic::{Entry, Form, MAX_DEGREE, Product, value};
 use super::{Arrow, Fault, Lowering, Parity};
 use crate::interval::Real;
-use num_rational::BigRational;
+use crate::rational::Rational;
 
 /// What [`Lowering::measure`] takes.
 pub struct Measured<'b> {
     /// Products that are the number times the lengths of `arrows`.
     pub products: Vec<Product>,
     /// What they are in the sketch.
-    pub now: BigRational,
+    pub now: Rational,
     /// The number wanted.
     pub then: Real,
     /// The number's power of the unit of length: 1 for a distance, 0 for a cosine.
@@ -94,7 +94,7 @@ impl Lowering<'_> {
             let cosine = self.lead(&now / &(&a * &b), then.clone());
             multiply(&multiply(&cosine, &u), &v)
         };
-        let half = Real::from(BigRational::new(1.into(), 2.into()));
+        let half = Real::from(Rational::new(1.into(), 2.into()));
         let squares = add(&multiply(&u, &u), &multiply(&v, &v));
         let right = add(
             &multiply(&[half], &squares),

@@ -5,8 +5,7 @@ use super::super::polynomial::Polynomial;
 use super::super::quadratic::{Product, Role, value};
 use super::{Arrow, Fault, Lowering, Parity, Start};
 use crate::interval::Real;
-use num_rational::BigRational;
-use num_traits::{FromPrimitive, Signed, ToPrimitive};
+use crate::rational::Rational;
 
 /// Of edits: their quarters are at most a quarter turn for a whole one.
 const STEPS: usize = 4;
@@ -26,7 +25,7 @@ impl Lowering<'_> {
         name: &str,
         u: &Arrow,
         v: &Arrow,
-        degrees: &BigRational,
+        degrees: &Rational,
     ) -> Result<(), Fault> {
         let power = u.power + v.power;
         let sizes = &length(&u.at) * &length(&v.at);
@@ -43,7 +42,7 @@ impl Lowering<'_> {
         name: &str,
         products: [Vec<Product>; 2],
         (now, sizes, power): ([Real; 2], &Real, i32),
-        degrees: &BigRational,
+        degrees: &Rational,
     ) -> Result<(), Fault> {
         let [cosine, sine] = self.way_round(now, sizes, degrees)?;
         let cosine = self.coefficient(&format!("{name}, the cosine"), 0, Parity::Even, cosine);
@@ -64,9 +63,9 @@ impl Lowering<'_> {
         &mut self,
         now: [Real; 2],
         sizes: &Real,
-        degrees: &BigRational,
+        degrees: &Rational,
     ) -> Result<[Polynomial; 2], Fault> {
-        let number = |x: f64| BigRational::from_f64(x).unwrap_or_default();
+        let number = |x: f64| Rational::from_float(x).unwrap_or_default();
         let then = Real::from(degrees.clone());
         let before = match self.from {
             Start::Sketch => None,
@@ -80,14 +79,14 @@ impl Lowering<'_> {
             }
         };
         self.record.leads.push(then);
-        let on_circle = |degrees: BigRational| {
+        let on_circle = |degrees: Rational| {
             [
                 Real::cosine_of_degrees(degrees.clone()),
                 Real::sine_of_degrees(degrees),
             ]
         };
-        let way = |from: &BigRational, steps: usize| -> Vec<[Real; 2]> {
-            let part = |k: usize| BigRational::new(k.into(), steps.into());
+        let way = |from: &Rational, steps: usize| -> Vec<[Real; 2]> {
+            let part = |k: usize| Rational::new(k.into(), steps.into());
             (0..=steps)
                 .map(|k| on_circle(from + part(k) * (degrees - from)))
                 .collect()
@@ -103,7 +102,7 @@ impl Lowering<'_> {
                 return Ok([cosine, sine]);
             }
             Some(before)
-                if (degrees - &before).abs() > BigRational::from_integer(MOST_TURN.into()) =>
+                if (degrees - &before).abs() > Rational::from_integer(MOST_TURN.into()) =>
             {
                 return Err(format!(
                     "an edit turns by at most {MOST_TURN} degrees: go there in two or more"
@@ -113,7 +112,7 @@ impl Lowering<'_> {
             None => {
                 let [x, y] = now.each_ref().map(|x| x.enclose().mid());
                 let drawn = y.atan2(x).to_degrees();
-                let wanted = degrees.to_f64().unwrap_or(0.0);
+                let wanted = degrees.to_f64();
                 let turn = (wanted - drawn + 180.0).rem_euclid(360.0) - 180.0;
                 let steps = match self.editable {
                     true => STEPS,

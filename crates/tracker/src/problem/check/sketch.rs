@@ -1,8 +1,7 @@
 //! Degenerate places in the sketch, decided exactly.
 
 use crate::problem::Point;
-use num_rational::BigRational;
-use num_traits::Zero;
+use crate::rational::Rational;
 
 /// Whether two points are in the same place.
 pub fn coincide(a: &Point, b: &Point) -> bool {
@@ -11,7 +10,7 @@ pub fn coincide(a: &Point, b: &Point) -> bool {
 
 /// Whether three points lie on one line.
 pub fn collinear(a: &Point, b: &Point, c: &Point) -> bool {
-    let difference = |p: &Point| -> [BigRational; 3] {
+    let difference = |p: &Point| -> [Rational; 3] {
         std::array::from_fn(|k| p.sketch[k].value() - a.sketch[k].value())
     };
     let (u, v) = (difference(b), difference(c));

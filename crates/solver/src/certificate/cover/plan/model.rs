@@ -291,12 +291,12 @@ impl Model {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use num_rational::BigRational;
-    use num_traits::{One, Signed, Zero};
+    use crate::rational::Rational;
+    use num_traits::Signed;
     use proptest::prelude::*;
 
-    fn ratio(x: f64) -> BigRational {
-        BigRational::from_float(x).unwrap()
+    fn ratio(x: f64) -> Rational {
+        Rational::from_float(x).unwrap()
     }
 
     const SYMBOLS: usize = 3;
@@ -304,17 +304,17 @@ mod tests {
     type At = [f64; SYMBOLS];
 
     /// A function and its exact value at a place.
-    type Known = (Model, BigRational);
+    type Known = (Model, Rational);
 
-    fn polynomial(model: &Model, u: &At) -> BigRational {
+    fn polynomial(model: &Model, u: &At) -> Rational {
         let of = |i: usize| {
             if i == 0 {
-                BigRational::one()
+                Rational::one()
             } else {
                 ratio(u[i - 1])
             }
         };
-        let mut sum = BigRational::zero();
+        let mut sum = Rational::zero();
         for i in 0..=SYMBOLS {
             for j in i..=SYMBOLS {
                 sum += ratio(model.c[place(SYMBOLS, i, j)]) * of(i) * of(j);
@@ -329,7 +329,7 @@ mod tests {
         let sum = |of: std::ops::Range<usize>| {
             model.c[of]
                 .iter()
-                .fold(BigRational::zero(), |sum, &x| sum + ratio(x).abs())
+                .fold(Rational::zero(), |sum, &x| sum + ratio(x).abs())
         };
         let [linear, quadratic] = model.sizes.map(ratio);
         let points = u.map(point);
@@ -428,7 +428,7 @@ mod tests {
         fn rotations_hold_exact_values(middle in -1.0f64..1.0, radius in prop_oneof![0.0f64..1.0, 0.0f64..1e-6], u in places()) {
             let both = Model::rotation(SYMBOLS, 1, middle, radius);
             let tau = ratio(middle) + ratio(radius) * ratio(u[1]);
-            let (one, square) = (BigRational::one(), &tau * &tau);
+            let (one, square) = (Rational::one(), &tau * &tau);
             let below = &one + &square;
             let values = [-(&tau + &tau) / &below, (one - square) / below];
             for known in both.into_iter().zip(values) {

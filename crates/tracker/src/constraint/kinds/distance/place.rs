@@ -95,7 +95,7 @@ pub fn off_line(
     low: &mut Lowering,
     place: &Place,
     line: &Line,
-) -> Option<(Vec<Product>, BigRational)> {
+) -> Option<(Vec<Product>, Rational)> {
     let line = &low.headed_line(line.clone());
     let across = low.between(&line.base, place);
     let along = dot(&line.along.at, &across.at);

@@ -116,7 +116,7 @@ pub fn between(
         return Ok(());
     }
     let span = low.span(centers[0], centers[1])?;
-    let squares: BigRational = dot(&span.at, &span.at);
+    let squares: Rational = dot(&span.at, &span.at);
     let [r, s] = [one, other].map(|object| low.round(object).squared);
     let is_outside = squares > r + s;
     if !is_outside && are_equal {
@@ -155,7 +155,7 @@ fn height(
     what: &str,
     low: &mut Lowering,
     mut products: Vec<crate::constraint::Product>,
-    now: BigRational,
+    now: Rational,
     along: &Arrow,
 ) -> Result<Off, Fault> {
     if now.is_zero() {

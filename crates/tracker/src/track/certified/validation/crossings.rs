@@ -1,20 +1,17 @@
 //! Crossings of t = 1 on polynomials made to mislead, against Sturm's theorem in rationals.
 
 use super::*;
+use crate::rational::Rational;
 use crate::track::events::{Crossing, TimeAlong};
-use num_rational::BigRational;
-use num_traits::{Signed, Zero};
 
-type Polynomial = Vec<BigRational>;
+type Polynomial = Vec<Rational>;
 
-fn exact(x: f64) -> BigRational {
-    BigRational::from_float(x).expect("a finite float")
+fn exact(x: f64) -> Rational {
+    Rational::from_float(x).expect("a finite float")
 }
 
-fn value(p: &[BigRational], x: &BigRational) -> BigRational {
-    p.iter()
-        .rev()
-        .fold(BigRational::zero(), |sum, c| sum * x + c)
+fn value(p: &[Rational], x: &Rational) -> Rational {
+    p.iter().rev().fold(Rational::zero(), |sum, c| sum * x + c)
 }
 
 fn trim(mut p: Polynomial) -> Polynomial {
@@ -25,12 +22,12 @@ fn trim(mut p: Polynomial) -> Polynomial {
 }
 
 /// Sturm's sequence, each member scaled to a leading coefficient ±1.
-fn sturm(p: &[BigRational]) -> Vec<Polynomial> {
+fn sturm(p: &[Rational]) -> Vec<Polynomial> {
     let derivative: Polynomial = p
         .iter()
         .enumerate()
         .skip(1)
-        .map(|(k, c)| c * BigRational::from_integer(k.into()))
+        .map(|(k, c)| c * Rational::from_integer(k.into()))
         .collect();
     let mut sequence = vec![trim(p.to_vec()), trim(derivative)];
     loop {
@@ -51,15 +48,15 @@ fn sturm(p: &[BigRational]) -> Vec<Polynomial> {
         let rest = trim(rest);
         let scale = rest
             .last()
-            .map_or(BigRational::from_integer(1.into()), |c| c.abs());
+            .map_or(Rational::from_integer(1.into()), |c| c.abs());
         sequence.push(rest.into_iter().map(|c| -c / &scale).collect());
     }
 }
 
 /// The number of different roots in [a, b].
-fn roots(p: &[BigRational], a: &BigRational, b: &BigRational) -> usize {
+fn roots(p: &[Rational], a: &Rational, b: &Rational) -> usize {
     let sequence = sturm(p);
-    let changes = |x: &BigRational| {
+    let changes = |x: &Rational| {
         let signs: Vec<bool> = sequence
             .iter()
             .map(|q| value(q, x))
@@ -72,7 +69,7 @@ fn roots(p: &[BigRational], a: &BigRational, b: &BigRational) -> usize {
     changes(a) - changes(b) + value(p, a).is_zero() as usize
 }
 
-fn shifted(p: &[BigRational], constant: &BigRational, linear: &BigRational) -> Polynomial {
+fn shifted(p: &[Rational], constant: &Rational, linear: &Rational) -> Polynomial {
     let mut p = p.to_vec();
     p[0] = &p[0] + constant;
     p[1] = &p[1] + linear;
@@ -80,7 +77,7 @@ fn shifted(p: &[BigRational], constant: &BigRational, linear: &BigRational) -> P
 }
 
 /// What a list of crossings claims of one of the functions that the bounds allow.
-fn is_true(p: &[BigRational], (from, to): (f64, f64), crossings: &[Crossing]) -> bool {
+fn is_true(p: &[Rational], (from, to): (f64, f64), crossings: &[Crossing]) -> bool {
     let mut inside = 0;
     for c in crossings {
         let (a, b) = (exact(c.between.0), exact(c.between.1));

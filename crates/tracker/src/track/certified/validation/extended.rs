@@ -4,45 +4,42 @@ use super::solutions::exact_solution;
 use super::*;
 use crate::places::Each as _;
 use crate::problem::Target;
+use crate::rational::Rational;
 use crate::track::certified::link::Ball;
 use crate::track::certified::solution::SolutionProver;
 use crate::track::certified::tracker::Test;
 use crate::track::full::Local;
 use crate::track::{Control, Options, solve};
 use num_bigint::BigInt;
-use num_rational::BigRational;
-use num_traits::{Signed, ToPrimitive, Zero};
 
-fn exact(x: f64) -> BigRational {
-    BigRational::from_float(x).expect("a finite float")
+fn exact(x: f64) -> Rational {
+    Rational::from_float(x).expect("a finite float")
 }
 
 /// Rounded to a multiple of 2⁻⁵⁰⁰.
-fn trimmed(x: BigRational) -> BigRational {
-    let scale = BigRational::from(BigInt::from(1) << 500);
+fn trimmed(x: Rational) -> Rational {
+    let scale = Rational::from(BigInt::from(1) << 500);
     (x * &scale).round() / scale
 }
 
 /// The equations in rationals, from the problem's own decimals; roots to 2⁻⁵⁰⁰.
-struct Rational<'a> {
+struct Exactly<'a> {
     homotopy: &'a Homotopy,
     /// a₀, a₁, a₂ of every distance, in the homotopy's unit.
-    lengths: Vec<[BigRational; 3]>,
+    lengths: Vec<[Rational; 3]>,
 }
 
-impl<'a> Rational<'a> {
+impl<'a> Exactly<'a> {
     fn new(problem: &Problem, homotopy: &'a Homotopy) -> Self {
         let unit = exact(homotopy.unit);
-        let root = |x: BigRational| {
+        let root = |x: Rational| {
             let scale = BigInt::from(1) << 500;
-            let scaled = (x * BigRational::from(&scale * &scale))
-                .floor()
-                .to_integer();
-            BigRational::new(scaled.sqrt(), scale)
+            let scaled = (x * Rational::from(&scale * &scale)).floor().to_integer();
+            Rational::new(scaled.sqrt(), scale)
         };
         let lengths = problem.distances.iter().enumerate().map(|(e, distance)| {
             let [p, q] = distance.points.each(|p| &problem.points[p].sketch);
-            let squared = (0..3).fold(BigRational::zero(), |sum, k| {
+            let squared = (0..3).fold(Rational::zero(), |sum, k| {
                 sum + (p[k].value() - q[k].value()).pow(2)
             });
             let a0 = root(squared / &unit / &unit);
@@ -52,17 +49,17 @@ impl<'a> Rational<'a> {
             };
             let c = match e == problem.homotopy.bend {
                 true => problem.homotopy.bend_coefficient.value() / &unit,
-                false => BigRational::zero(),
+                false => Rational::zero(),
             };
             [a0.clone(), target - a0 + &c, -c]
         });
-        Rational {
+        Exactly {
             homotopy,
             lengths: lengths.collect(),
         }
     }
 
-    fn residual(&self, z: &[BigRational]) -> Vec<BigRational> {
+    fn residual(&self, z: &[Rational]) -> Vec<Rational> {
         let homotopy = self.homotopy;
         let t = &z[homotopy.equations];
         let per_edge = homotopy.edges.iter().zip(&self.lengths);
@@ -70,7 +67,7 @@ impl<'a> Rational<'a> {
             .map(|(edge, [a0, a1, a2])| {
                 let [i, j] = edge.points;
                 let [a, b] = [i, j].map(|p| homotopy.place(p, |i| z[i].clone()));
-                let squared = (0..3).fold(BigRational::zero(), |sum, axis| {
+                let squared = (0..3).fold(Rational::zero(), |sum, axis| {
                     sum + (&a[axis] - &b[axis]).pow(2)
                 });
                 let length = a0 + t * (a1 + t * a2);
@@ -80,7 +77,7 @@ impl<'a> Rational<'a> {
     }
 
     /// J(z) v.
-    fn jacobian_times(&self, z: &[BigRational], v: &[BigRational]) -> Vec<BigRational> {
+    fn jacobian_times(&self, z: &[Rational], v: &[Rational]) -> Vec<Rational> {
         let homotopy = self.homotopy;
         let m = homotopy.equations;
         let t = &z[m];
@@ -88,13 +85,13 @@ impl<'a> Rational<'a> {
         per_edge
             .map(|(edge, [a0, a1, a2])| {
                 let [i, j] = edge.points;
-                let between = |x: &[BigRational]| {
+                let between = |x: &[Rational]| {
                     let [a, b] = [i, j].map(|p| homotopy.place(p, |i| x[i].clone()));
                     [0, 1, 2].map(|axis| &a[axis] - &b[axis])
                 };
                 let (a, b) = (between(z), between(v));
                 let products = a.iter().zip(&b).map(|(a, b)| a * b);
-                let product: BigRational = products.sum();
+                let product: Rational = products.sum();
                 let (length, slope) = (a0 + t * (a1 + t * a2), a1 + exact(2.0) * t * a2);
                 product - length * slope * &v[m]
             })
@@ -102,12 +99,12 @@ impl<'a> Rational<'a> {
     }
 
     /// The path's derivative by s at a point z of it, by chord iteration; less ẑ'(s).
-    fn slope_off(&self, local: &Local, s: f64, z: &[BigRational]) -> Vec<BigRational> {
+    fn slope_off(&self, local: &Local, s: f64, z: &[Rational]) -> Vec<Rational> {
         let n = z.len();
         let s = exact(s);
-        let slope: Vec<BigRational> = (0..n)
+        let slope: Vec<Rational> = (0..n)
             .map(|i| {
-                (1..=ORDER).rev().fold(BigRational::zero(), |sum, k| {
+                (1..=ORDER).rev().fold(Rational::zero(), |sum, k| {
                     sum * &s + exact(k as f64) * exact(local.z[k][i])
                 })
             })
@@ -116,9 +113,9 @@ impl<'a> Rational<'a> {
         loop {
             let mut g = self.jacobian_times(z, &v);
             g.push((0..n).fold(exact(-1.0), |sum, i| sum + exact(local.normal[i]) * &v[i]));
-            let mut largest = BigRational::zero();
+            let mut largest = Rational::zero();
             for i in 0..n {
-                let step = (0..n).fold(BigRational::zero(), |sum, j| {
+                let step = (0..n).fold(Rational::zero(), |sum, j| {
                     sum + exact(local.y.get(i, j)) * &g[j]
                 });
                 largest = largest.max(step.abs());
@@ -131,30 +128,28 @@ impl<'a> Rational<'a> {
     }
 
     /// The zero of F in the cross-section of ẑ(s), by chord iteration from ẑ(s); and ẑ(s).
-    fn path(&self, local: &Local, s: f64) -> Option<(Vec<BigRational>, Vec<BigRational>)> {
+    fn path(&self, local: &Local, s: f64) -> Option<(Vec<Rational>, Vec<Rational>)> {
         let n = self.homotopy.equations + 1;
         let s = exact(s);
-        let through: Vec<BigRational> = (0..n)
+        let through: Vec<Rational> = (0..n)
             .map(|i| {
                 let terms = (0..=ORDER).rev();
-                let sum = terms.fold(BigRational::zero(), |sum, k| {
-                    sum * &s + exact(local.z[k][i])
-                });
+                let sum = terms.fold(Rational::zero(), |sum, k| sum * &s + exact(local.z[k][i]));
                 sum + exact(local.low[i])
             })
             .collect();
-        let inverse: Vec<Vec<BigRational>> = (0..n)
+        let inverse: Vec<Vec<Rational>> = (0..n)
             .map(|i| (0..n).map(|j| exact(local.y.get(i, j))).collect())
             .collect();
         let mut z = through.clone();
         for _ in 0..80 {
             let mut g = self.residual(&z);
-            g.push((0..n).fold(BigRational::zero(), |sum, i| {
+            g.push((0..n).fold(Rational::zero(), |sum, i| {
                 sum + exact(local.normal[i]) * (&z[i] - &through[i])
             }));
-            let mut largest = BigRational::zero();
+            let mut largest = Rational::zero();
             for i in 0..n {
-                let step = (0..n).fold(BigRational::zero(), |sum, j| sum + &inverse[i][j] * &g[j]);
+                let step = (0..n).fold(Rational::zero(), |sum, j| sum + &inverse[i][j] * &g[j]);
                 largest = largest.max(step.abs());
                 z[i] = trimmed(&z[i] - step);
             }
@@ -195,7 +190,7 @@ fn around_sketch(homotopy: &Homotopy, workshop: &mut Workshop) -> Option<Tube> {
     Some(tube)
 }
 
-fn sum_of(z: f64, low: f64) -> BigRational {
+fn sum_of(z: f64, low: f64) -> Rational {
     exact(z) + exact(low)
 }
 
@@ -203,7 +198,7 @@ fn residuals(problem: &Problem, random: &mut Random, cancelled: &mut usize) {
     let Ok(homotopy) = Homotopy::new(problem) else {
         return;
     };
-    let rational = Rational::new(problem, &homotopy);
+    let rational = Exactly::new(problem, &homotopy);
     let mut workshop = Workshop::new(&homotopy, f64::INFINITY);
     let Some(tube) = around_sketch(&homotopy, &mut workshop) else {
         return;
@@ -218,7 +213,7 @@ fn residuals(problem: &Problem, random: &mut Random, cancelled: &mut usize) {
         let (mut z, mut low) = (tube.local.z[0].clone(), tube.local.low.clone());
         let change: Vec<f64> = (0..n).map(|_| off * random.between(-1.0, 1.0)).collect();
         crate::track::full::shift(&mut z[..n], &mut low[..n], |i| change[i]);
-        let point: Vec<BigRational> = (0..n).map(|i| sum_of(z[i], low[i])).collect();
+        let point: Vec<Rational> = (0..n).map(|i| sum_of(z[i], low[i])).collect();
         let extended = equations.in_extended();
         extended.residual(equations, (&z, &low), &mut f, Some(&mut error));
         for (e, value) in rational.residual(&point).iter().enumerate() {
@@ -226,7 +221,7 @@ fn residuals(problem: &Problem, random: &mut Random, cancelled: &mut usize) {
                 (value - exact(f[e])).abs() <= exact(error[e]),
                 "{}: F_{e} is {:e}, not {:e} up to {:e}",
                 problem.name,
-                value.to_f64().unwrap(),
+                value.to_f64(),
                 f[e],
                 error[e]
             );
@@ -281,7 +276,7 @@ struct Tally {
 /// Whatever the low words are, what is proved of the tube around them is true.
 fn tubes(problem: &Problem, random: &mut Random, tally: &mut Tally) {
     let homotopy = Homotopy::new(problem).unwrap();
-    let rational = Rational::new(problem, &homotopy);
+    let rational = Exactly::new(problem, &homotopy);
     let mut workshop = Workshop::new(&homotopy, f64::INFINITY);
     let Some(good) = around_sketch(&homotopy, &mut workshop) else {
         return;
@@ -338,7 +333,7 @@ fn tubes(problem: &Problem, random: &mut Random, tally: &mut Tally) {
             for i in 0..n {
                 let off = (&z[i] - &through[i]).abs();
                 let allowed = exact(proof.distance) * exact(tube.weights[i]);
-                assert!(off <= allowed, "{proof:?}: {:e}", off.to_f64().unwrap());
+                assert!(off <= allowed, "{proof:?}: {:e}", off.to_f64());
             }
             if has_exit && s > 0.0 {
                 for i in 0..n {
@@ -464,7 +459,7 @@ fn low_words_do_not_outlive_their_tubes() {
 }
 
 /// What a tube claims at a few parameters, against rationals: how near the claimed distance comes.
-fn compare(rational: &Rational, tube: &Tube) -> (f64, f64) {
+fn compare(rational: &Exactly, tube: &Tube) -> (f64, f64) {
     let (n, proof) = (tube.weights.len() - 1, &tube.proof);
     let (mut used, mut turned) = (0.0f64, 0.0f64);
     for s in [-proof.h, -0.5 * proof.h, 0.0, 0.5 * proof.h, proof.h] {
@@ -472,11 +467,11 @@ fn compare(rational: &Rational, tube: &Tube) -> (f64, f64) {
         for i in 0..n {
             let off = (&z[i] - &through[i]).abs();
             let allowed = exact(proof.distance) * exact(tube.weights[i]);
-            used = used.max((off / allowed).to_f64().unwrap());
+            used = used.max((off / allowed).to_f64());
         }
         for (i, off) in rational.slope_off(&tube.local, s, &z).iter().enumerate() {
             let allowed = exact(proof.slope_distance) * exact(tube.weights[i]);
-            turned = turned.max((off.abs() / allowed).to_f64().unwrap());
+            turned = turned.max((off.abs() / allowed).to_f64());
         }
     }
     (used, turned)
@@ -498,7 +493,7 @@ fn prove_as_it_is(workshop: &mut Workshop, tube: &mut Tube, max_h: f64) -> bool 
 /// Lengths known less well than they are: the middle is then off by as much as order 0 of F may be.
 fn blurred(problem: &Problem, random: &mut Random) -> Option<(f64, f64)> {
     let homotopy = Homotopy::new(problem).unwrap();
-    let rational = Rational::new(problem, &homotopy);
+    let rational = Exactly::new(problem, &homotopy);
     let mut workshop = Workshop::new(&homotopy, f64::INFINITY);
     workshop.equations.extend(&homotopy);
     let size = 10f64.powf(random.between(-22.0, -12.0));
@@ -527,7 +522,7 @@ fn blurred(problem: &Problem, random: &mut Random) -> Option<(f64, f64)> {
 /// and do not.
 fn rough(problem: &Problem, random: &mut Random) -> Option<(f64, f64)> {
     let homotopy = Homotopy::new(problem).unwrap();
-    let rational = Rational::new(problem, &homotopy);
+    let rational = Exactly::new(problem, &homotopy);
     let mut workshop = Workshop::new(&homotopy, f64::INFINITY);
     let mut tube = around_sketch(&homotopy, &mut workshop)?;
     let m = workshop.equations.m;

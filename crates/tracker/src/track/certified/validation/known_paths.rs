@@ -7,19 +7,19 @@
 use super::solutions::check_solutions;
 use super::*;
 use crate::places::Each as _;
+use crate::rational::Rational;
 use crate::track::{Control, Options, Status, solve};
 use num_bigint::BigInt;
-use num_rational::BigRational;
-use num_traits::{Signed, Zero};
+use num_traits::Signed;
 
 /// a(t) in exact numbers.
-type Length = [BigRational; 3];
+type Length = [Rational; 3];
 
-fn whole(x: i64) -> BigRational {
-    BigRational::from_integer(x.into())
+fn whole(x: i64) -> Rational {
+    Rational::from_integer(x.into())
 }
 
-fn decimal(text: &str) -> BigRational {
+fn decimal(text: &str) -> Rational {
     text.parse::<crate::problem::Decimal>()
         .unwrap()
         .value()
@@ -27,14 +27,14 @@ fn decimal(text: &str) -> BigRational {
 }
 
 /// √x to 150 binary digits.
-fn root(x: &BigRational) -> BigRational {
+fn root(x: &Rational) -> Rational {
     let scale: BigInt = BigInt::from(1) << 300;
-    let scaled = (x * BigRational::from(scale)).floor().to_integer();
-    BigRational::new(scaled.sqrt(), BigInt::from(1) << 150)
+    let scaled = (x * Rational::from(scale)).floor().to_integer();
+    Rational::new(scaled.sqrt(), BigInt::from(1) << 150)
 }
 
 /// Where a length polynomial that is positive at 0 becomes zero, nearest on either side of it.
-fn zeros([c, b, a]: &Length) -> (Option<BigRational>, Option<BigRational>) {
+fn zeros([c, b, a]: &Length) -> (Option<Rational>, Option<Rational>) {
     let roots = if a.is_zero() {
         if b.is_zero() { vec![] } else { vec![-c / b] }
     } else {
@@ -63,13 +63,13 @@ enum Known {
 }
 
 /// From the places, on either side of 0, where each of the points is flat.
-fn known(flat: &[(Option<BigRational>, Option<BigRational>)], exactly: bool) -> Known {
+fn known(flat: &[(Option<Rational>, Option<Rational>)], exactly: bool) -> Known {
     let tolerance = if exactly {
-        BigRational::new(1.into(), BigInt::from(1) << 120)
+        Rational::new(1.into(), BigInt::from(1) << 120)
     } else {
         decimal("1e-7")
     };
-    let nearest = |values: Vec<(usize, BigRational)>| -> Option<Result<(usize, BigRational), ()>> {
+    let nearest = |values: Vec<(usize, Rational)>| -> Option<Result<(usize, Rational), ()>> {
         let first = values.iter().min_by_key(|v| v.1.abs())?.clone();
         let ties = values
             .iter()
@@ -77,7 +77,7 @@ fn known(flat: &[(Option<BigRational>, Option<BigRational>)], exactly: bool) -> 
             .count();
         Some(if ties > 1 { Err(()) } else { Ok(first) })
     };
-    let side = |pick: &dyn Fn(usize) -> Option<BigRational>| {
+    let side = |pick: &dyn Fn(usize) -> Option<Rational>| {
         nearest(
             (0..flat.len())
                 .filter_map(|k| pick(k).map(|x| (k, x)))
@@ -114,13 +114,13 @@ fn near(random: &mut Random, base: i64) -> String {
         1 => format!("{:.3}", base as f64 * random.between(0.8, 1.2)),
         _ => {
             let (sign, digits) = (random.below(2), 3 + random.below(10));
-            let small = BigRational::new(1.into(), BigInt::from(10).pow(digits as u32));
+            let small = Rational::new(1.into(), BigInt::from(10).pow(digits as u32));
             let value = if sign == 0 {
                 whole(base) + small
             } else {
                 whole(base) - small
             };
-            let scaled = (value * BigRational::from(BigInt::from(10).pow(14)))
+            let scaled = (value * Rational::from(BigInt::from(10).pow(14)))
                 .to_integer()
                 .to_string();
             format!("{scaled}e-14")
@@ -158,7 +158,7 @@ fn fan(random: &mut Random) -> (Problem, Known) {
         let sum = decimal("22") + decimal(tiny);
         target[0] = "14".into();
         target[1] = "8".into();
-        let rest = (sum - whole(8) - whole(8)) * BigRational::from(BigInt::from(10).pow(12));
+        let rest = (sum - whole(8) - whole(8)) * Rational::from(BigInt::from(10).pow(12));
         target[2] = format!("{}e-12", rest.to_integer());
     }
     let bend = random.below(sketch.len());
@@ -183,13 +183,13 @@ fn fan(random: &mut Random) -> (Problem, Known) {
         let c = if e == bend {
             decimal(c)
         } else {
-            BigRational::zero()
+            Rational::zero()
         };
         [from.clone(), to - from + &c, -c]
     };
     let combine = |signs: [i64; 3], lengths: [&Length; 3]| -> Length {
         std::array::from_fn(|k| {
-            (0..3).fold(BigRational::zero(), |sum, i| {
+            (0..3).fold(Rational::zero(), |sum, i| {
                 sum + whole(signs[i]) * &lengths[i][k]
             })
         })
@@ -286,7 +286,7 @@ fn tent(random: &mut Random) -> (Problem, Known) {
         }
     };
     let mut unclear = false;
-    let mut nearest = |k: usize, direction: f64| -> Option<BigRational> {
+    let mut nearest = |k: usize, direction: f64| -> Option<Rational> {
         let step = 1e-3;
         let (mut t, mut before, mut falling) = (0.0, height(k, 0.0), f64::INFINITY);
         while t.abs() < 6.0 {
@@ -305,7 +305,7 @@ fn tent(random: &mut Random) -> (Problem, Known) {
                         hi = middle
                     }
                 }
-                return BigRational::from_float(lo);
+                return Rational::from_float(lo);
             }
             // A low that could dip below zero between two steps.
             if now > before && falling > before && before < 1e-4 {

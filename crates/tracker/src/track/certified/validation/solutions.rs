@@ -2,19 +2,18 @@
 
 use super::*;
 use crate::problem::Target;
+use crate::rational::Rational;
 use crate::track::{Control, Options, Outcome, Status, solve};
 use num_bigint::BigInt;
-use num_rational::BigRational;
-use num_traits::{Signed, ToPrimitive, Zero};
 
-fn exact(x: f64) -> BigRational {
-    BigRational::from_float(x).expect("a finite float")
+fn exact(x: f64) -> Rational {
+    Rational::from_float(x).expect("a finite float")
 }
 
 /// Rounded to a multiple of 2⁻³⁰⁰.
-fn trimmed(x: BigRational) -> BigRational {
+fn trimmed(x: Rational) -> Rational {
     let scale: BigInt = BigInt::from(1) << 300;
-    (x * BigRational::from(scale.clone())).round() / BigRational::from(scale)
+    (x * Rational::from(scale.clone())).round() / Rational::from(scale)
 }
 
 /// The solution near the middles of a figure's boxes, far beyond the precision of floats.
@@ -24,22 +23,22 @@ pub fn exact_solution(
     problem: &Problem,
     homotopy: &Homotopy,
     boxes: &[[Interval; 3]],
-) -> Option<Vec<BigRational>> {
+) -> Option<Vec<Rational>> {
     let (d, m) = (homotopy.dimension, homotopy.equations);
     let variable = |p: usize, axis: usize| homotopy.gauge.variable[p * d + axis];
     let place = |v: usize| (homotopy.gauge.place[v] / d, homotopy.gauge.place[v] % d);
-    let mut x: Vec<BigRational> = (0..m)
+    let mut x: Vec<Rational> = (0..m)
         .map(|v| exact(boxes[place(v).0][place(v).1].mid()))
         .collect();
-    let get = |x: &[BigRational], p: usize, axis: usize| match variable(p, axis) {
+    let get = |x: &[Rational], p: usize, axis: usize| match variable(p, axis) {
         v if v < m => x[v].clone(),
-        _ => BigRational::zero(),
+        _ => Rational::zero(),
     };
     let mut jacobian = DMatrix::zeros(m, m);
     for (e, distance) in problem.distances.iter().enumerate() {
         let [i, j] = distance.points;
         for axis in 0..d {
-            let difference = 2.0 * (get(&x, i, axis) - get(&x, j, axis)).to_f64()?;
+            let difference = 2.0 * (get(&x, i, axis) - get(&x, j, axis)).to_f64();
             for (p, sign) in [(i, 1.0), (j, -1.0)] {
                 if variable(p, axis) < m {
                     jacobian[(e, variable(p, axis))] += sign * difference;
@@ -48,12 +47,12 @@ pub fn exact_solution(
         }
     }
     let inverse = jacobian.try_inverse()?;
-    let inverse: Vec<Vec<BigRational>> = (0..m)
+    let inverse: Vec<Vec<Rational>> = (0..m)
         .map(|i| (0..m).map(|j| exact(inverse[(i, j)])).collect())
         .collect();
-    let mut last = BigRational::from_integer(1.into());
+    let mut last = Rational::from_integer(1.into());
     for _ in 0..100 {
-        let residual: Vec<BigRational> = problem
+        let residual: Vec<Rational> = problem
             .distances
             .iter()
             .map(|distance| {
@@ -68,9 +67,9 @@ pub fn exact_solution(
                 })
             })
             .collect();
-        last = BigRational::zero();
+        last = Rational::zero();
         for i in 0..m {
-            let step = trimmed((0..m).fold(BigRational::zero(), |sum, j| {
+            let step = trimmed((0..m).fold(Rational::zero(), |sum, j| {
                 sum + &inverse[i][j] * &residual[j]
             }));
             last = last.max(step.abs());
@@ -84,13 +83,13 @@ pub fn exact_solution(
 }
 
 /// Squared distances between all points, in rationals.
-fn shape(homotopy: &Homotopy, x: &[BigRational]) -> Vec<BigRational> {
+fn shape(homotopy: &Homotopy, x: &[Rational]) -> Vec<Rational> {
     let places = (0..homotopy.points).map(|p| homotopy.place(p, |i| x[i].clone()));
-    let places: Vec<[BigRational; 3]> = places.collect();
+    let places: Vec<[Rational; 3]> = places.collect();
     let mut out = Vec::new();
     for i in 0..homotopy.points {
         for j in 0..i {
-            out.push((0..3).fold(BigRational::zero(), |sum, axis| {
+            out.push((0..3).fold(Rational::zero(), |sum, axis| {
                 let difference = &places[i][axis] - &places[j][axis];
                 sum + &difference * &difference
             }));
@@ -103,7 +102,7 @@ fn shape(homotopy: &Homotopy, x: &[BigRational]) -> Vec<BigRational> {
 pub fn check_solutions(problem: &Problem, outcome: &Outcome) {
     let homotopy = Homotopy::new(problem).unwrap();
     let slack = exact(1e-55);
-    let found: Vec<Vec<BigRational>> = outcome
+    let found: Vec<Vec<Rational>> = outcome
         .solutions
         .iter()
         .map(|s| exact_solution(problem, &homotopy, &s.points).expect("a regular solution"))
@@ -133,7 +132,7 @@ pub fn check_solutions(problem: &Problem, outcome: &Outcome) {
                 "{}: the boxes of solutions {i} and {j} meet",
                 problem.name
             );
-            let close = |(x, y): (&BigRational, &BigRational)| (x - y).abs() < exact(1e-40);
+            let close = |(x, y): (&Rational, &Rational)| (x - y).abs() < exact(1e-40);
             let congruent = shape(&homotopy, &found[i])
                 .iter()
                 .zip(&shape(&homotopy, &found[j]))

@@ -2,10 +2,10 @@
 
 use crate::equations::{Halved, Ring};
 use crate::interval::Interval;
+use crate::rational::Rational;
 use dashu_float::FBig;
 use dashu_float::ops::Abs;
 use dashu_float::round::mode::HalfEven;
-use num_rational::BigRational;
 use std::iter::Sum;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
@@ -24,7 +24,7 @@ impl Big {
         Big(x.with_precision(BITS).value())
     }
 
-    pub fn ratio(x: &BigRational) -> Self {
+    pub fn ratio(x: &Rational) -> Self {
         let part = |x: &num_bigint::BigInt| -> FBig<HalfEven> {
             let text = format!("{x:x}");
             let (negative, digits) = match text.strip_prefix('-') {

@@ -4,8 +4,8 @@ use super::big::{Big, Rows, dot, exact, solve};
 use crate::equations::{Form, left_side, slopes};
 use crate::places::Each as _;
 use crate::problem::{Problem, Target};
+use crate::rational::Rational;
 use crate::system::{Homotopy, Term};
-use num_rational::BigRational;
 
 pub struct Figure {
     pub m: usize,
@@ -27,7 +27,7 @@ impl Figure {
         let unit = Big::of(homotopy.unit);
         let lengths = problem.distances.iter().enumerate().map(|(e, distance)| {
             let [a, b] = distance.points.each(|p| &problem.points[p].sketch);
-            let squared = (0..3).fold(BigRational::from_integer(0.into()), |sum, k| {
+            let squared = (0..3).fold(Rational::from_integer(0.into()), |sum, k| {
                 let d = a[k].value() - b[k].value();
                 sum + &d * &d
             });

@@ -1,0 +1,462 @@
+//! Exact ratios of whole numbers.
+//!
+//! A ratio is always in lowest terms. The floats and decimals that ratios come from here have powers of 2 and 5 below the line, and the greatest common
+//! divisor of a power of 2 and an odd number is what binary algorithms are slowest at: they take away one bit after the other of a number
+//! of thousands. So twos are shifted away, and what is above the line is divided by what is left below it first.
+
+use crate::elimination::Field;
+use crate::equations::Ring;
+use num_bigint::{BigInt, BigUint, Sign};
+use num_integer::Integer;
+use num_rational::Ratio;
+use num_traits::float::FloatCore;
+use num_traits::{One, Signed, ToPrimitive, Zero};
+use std::cmp::Ordering;
+use std::fmt;
+use std::iter::{Product, Sum};
+use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
+
+/// A ratio of two whole numbers, in lowest terms; the one below the line is positive.
+///
+/// ```
+/// use krawl::rational::Rational;
+/// let third = Rational::new(2.into(), 6.into());
+/// assert_eq!(third.to_string(), "1/3");
+/// assert_eq!(&third + &third, Rational::new(2.into(), 3.into()));
+/// assert_eq!(Rational::from_float(0.5).unwrap() * &third, Rational::new(1.into(), 6.into()));
+/// ```
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub struct Rational {
+    above: BigInt,
+    below: BigInt,
+}
+
+/// The exponent of the power of 2 in a number; none in 0.
+fn twos(x: &BigInt) -> u64 {
+    x.trailing_zeros().unwrap_or(0)
+}
+
+/// The greatest common divisor of a number and an odd one.
+fn common(x: &BigUint, odd: &BigUint) -> BigUint {
+    let rest = x % odd;
+    match (rest.to_u64(), odd.to_u64()) {
+        (Some(0), _) => odd.clone(),
+        (Some(rest), Some(odd)) => rest.gcd(&odd).into(),
+        _ => rest.gcd(odd),
+    }
+}
+
+/// Two numbers without their common divisors; the second one is positive, and stays so.
+fn lowest(mut above: BigInt, mut below: BigInt) -> (BigInt, BigInt) {
+    if below.is_one() {
+        return (above, below);
+    }
+    if above.is_zero() {
+        return (above, BigInt::one());
+    }
+    let both = twos(&above).min(twos(&below));
+    if both > 0 {
+        above >>= both;
+        below >>= both;
+    }
+    let even = twos(&below);
+    let odd = below.magnitude() >> even;
+    if !odd.is_one() {
+        let common = common(above.magnitude(), &odd);
+        if !common.is_one() {
+            let common = BigInt::from(common);
+            above /= &common;
+            below /= common;
+        }
+    }
+    (above, below)
+}
+
+/// What two numbers below the line lack to a common one that is a multiple of both, but for twos the product.
+fn apart(a: &Rational, b: &Rational) -> (BigInt, BigInt) {
+    let both = twos(&a.below).min(twos(&b.below));
+    (&b.below >> both, &a.below >> both)
+}
+
+impl Rational {
+    /// The ratio of two numbers, the second of which is not 0.
+    pub fn new(above: BigInt, below: BigInt) -> Self {
+        assert!(!below.is_zero(), "a division by zero");
+        let (above, below) = match below.is_negative() {
+            true => lowest(-above, -below),
+            false => lowest(above, below),
+        };
+        Rational { above, below }
+    }
+
+    /// A whole number.
+    pub fn from_integer(above: BigInt) -> Self {
+        let below = BigInt::one();
+        Rational { above, below }
+    }
+
+    /// The number that a float is, unless it is infinite or no number.
+    pub fn from_float(x: f64) -> Option<Self> {
+        if !x.is_finite() {
+            return None;
+        }
+        let (mantissa, exponent, sign) = FloatCore::integer_decode(x);
+        let mantissa = BigInt::from(mantissa) * sign;
+        let power = u64::from(exponent.unsigned_abs());
+        Some(match exponent < 0 {
+            true => {
+                let (above, below) = lowest(mantissa, BigInt::one() << power);
+                Rational { above, below }
+            }
+            false => Rational::from_integer(mantissa << power),
+        })
+    }
+
+    /// 0.
+    pub fn zero() -> Self {
+        Rational::from_integer(BigInt::ZERO)
+    }
+
+    /// 1.
+    pub fn one() -> Self {
+        Rational::from_integer(BigInt::one())
+    }
+
+    /// What is above the line, with the sign.
+    pub fn numer(&self) -> &BigInt {
+        &self.above
+    }
+
+    /// What is below the line: positive.
+    pub fn denom(&self) -> &BigInt {
+        &self.below
+    }
+
+    /// Whether it is 0.
+    pub fn is_zero(&self) -> bool {
+        self.above.is_zero()
+    }
+
+    /// Whether it is 1.
+    pub fn is_one(&self) -> bool {
+        self.above.is_one() && self.is_integer()
+    }
+
+    /// Whether it is a whole number.
+    pub fn is_integer(&self) -> bool {
+        self.below.is_one()
+    }
+
+    /// Whether it is above 0.
+    pub fn is_positive(&self) -> bool {
+        self.above.sign() == Sign::Plus
+    }
+
+    /// Whether it is below 0.
+    pub fn is_negative(&self) -> bool {
+        self.above.sign() == Sign::Minus
+    }
+
+    /// Without its sign.
+    pub fn abs(&self) -> Self {
+        Rational {
+            above: self.above.abs(),
+            below: self.below.clone(),
+        }
+    }
+
+    /// 1, −1 or 0, whichever has its sign.
+    pub fn signum(&self) -> Self {
+        Rational::from_integer(self.above.signum())
+    }
+
+    /// One over it: it is not 0.
+    pub fn recip(&self) -> Self {
+        Rational::one() / self
+    }
+
+    /// A power of it, for a negative exponent of one over it.
+    pub fn pow(&self, exponent: i32) -> Self {
+        let to = |x: &BigInt| x.pow(exponent.unsigned_abs());
+        let power = Rational {
+            above: to(&self.above),
+            below: to(&self.below),
+        };
+        match exponent < 0 {
+            true => power.recip(),
+            false => power,
+        }
+    }
+
+    /// The largest whole number that is not above it.
+    pub fn floor(&self) -> Self {
+        Rational::from_integer(self.above.div_floor(&self.below))
+    }
+
+    /// The least whole number that is not below it.
+    pub fn ceil(&self) -> Self {
+        -(-self).floor()
+    }
+
+    /// The whole number that is nearest, of two the one farther from 0.
+    pub fn round(&self) -> Self {
+        let (two, whole) = (BigInt::from(2), self.above.abs());
+        let nearest = (whole * &two + &self.below).div_floor(&(&self.below * two));
+        Rational::from_integer(nearest * self.above.signum())
+    }
+
+    /// The whole number between it and 0 that is nearest.
+    pub fn to_integer(&self) -> BigInt {
+        &self.above / &self.below
+    }
+
+    /// The nearest float, infinite where it is beyond all floats.
+    pub fn to_f64(&self) -> f64 {
+        let exactly = |x: &BigInt| x.to_i64().filter(|x| x.unsigned_abs() <= 1 << 53);
+        if let (Some(above), Some(below)) = (exactly(&self.above), exactly(&self.below)) {
+            return above as f64 / below as f64;
+        }
+        let ratio = Ratio::new_raw(self.above.clone(), self.below.clone());
+        ratio.to_f64().expect("every ratio has a nearest float")
+    }
+
+    /// It times 2 to this.
+    pub fn shifted(&self, exponent: i64) -> Self {
+        let power = exponent.unsigned_abs();
+        let (above, below) = match exponent >= 0 {
+            true => lowest(&self.above << power, self.below.clone()),
+            false => lowest(self.above.clone(), &self.below << power),
+        };
+        Rational { above, below }
+    }
+
+    fn plus(&self, other: &Self) -> Self {
+        if self.below == other.below {
+            let (above, below) = lowest(&self.above + &other.above, self.below.clone());
+            return Rational { above, below };
+        }
+        let (own, others) = apart(self, other);
+        let above = &self.above * &own + &other.above * others;
+        let (above, below) = lowest(above, &self.below * own);
+        Rational { above, below }
+    }
+
+    fn times(&self, other: &Self) -> Self {
+        let (above, below) = lowest(&self.above * &other.above, &self.below * &other.below);
+        Rational { above, below }
+    }
+
+    fn over(&self, other: &Self) -> Self {
+        Rational::new(&self.above * &other.below, &self.below * &other.above)
+    }
+}
+
+impl Ord for Rational {
+    fn cmp(&self, other: &Self) -> Ordering {
+        let by_sign = self.above.sign().cmp(&other.above.sign());
+        by_sign.then_with(|| match self.below == other.below {
+            true => self.above.cmp(&other.above),
+            false => {
+                let (own, others) = apart(self, other);
+                (&self.above * own).cmp(&(&other.above * others))
+            }
+        })
+    }
+}
+
+impl PartialOrd for Rational {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Default for Rational {
+    fn default() -> Self {
+        Rational::zero()
+    }
+}
+
+impl From<BigInt> for Rational {
+    fn from(x: BigInt) -> Self {
+        Rational::from_integer(x)
+    }
+}
+
+impl fmt::Display for Rational {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.is_integer() {
+            true => self.above.fmt(f),
+            false => write!(f, "{}/{}", self.above, self.below),
+        }
+    }
+}
+
+impl Neg for Rational {
+    type Output = Rational;
+    fn neg(mut self) -> Rational {
+        self.above = -self.above;
+        self
+    }
+}
+
+impl Neg for &Rational {
+    type Output = Rational;
+    fn neg(self) -> Rational {
+        -self.clone()
+    }
+}
+
+/// An operation for values and references, and in place.
+macro_rules! operation {
+    ($trait:ident, $method:ident, $in_place:ident, $assign:ident, |$a:ident, $b:ident| $result:expr) => {
+        impl $trait<&Rational> for &Rational {
+            type Output = Rational;
+            fn $method(self, other: &Rational) -> Rational {
+                let ($a, $b) = (self, other);
+                $result
+            }
+        }
+        impl $trait<Rational> for &Rational {
+            type Output = Rational;
+            fn $method(self, other: Rational) -> Rational {
+                self.$method(&other)
+            }
+        }
+        impl $trait<&Rational> for Rational {
+            type Output = Rational;
+            fn $method(self, other: &Rational) -> Rational {
+                (&self).$method(other)
+            }
+        }
+        impl $trait<Rational> for Rational {
+            type Output = Rational;
+            fn $method(self, other: Rational) -> Rational {
+                (&self).$method(&other)
+            }
+        }
+        impl $in_place<&Rational> for Rational {
+            fn $assign(&mut self, other: &Rational) {
+                *self = (&*self).$method(other);
+            }
+        }
+        impl $in_place<Rational> for Rational {
+            fn $assign(&mut self, other: Rational) {
+                *self = (&*self).$method(&other);
+            }
+        }
+    };
+}
+
+operation!(Add, add, AddAssign, add_assign, |a, b| a.plus(b));
+operation!(Sub, sub, SubAssign, sub_assign, |a, b| a.plus(&-b));
+operation!(Mul, mul, MulAssign, mul_assign, |a, b| a.times(b));
+operation!(Div, div, DivAssign, div_assign, |a, b| a.over(b));
+
+impl<'a> Sum<&'a Rational> for Rational {
+    fn sum<I: Iterator<Item = &'a Rational>>(all: I) -> Self {
+        all.fold(Rational::zero(), |sum, x| sum + x)
+    }
+}
+
+impl Sum for Rational {
+    fn sum<I: Iterator<Item = Rational>>(all: I) -> Self {
+        all.fold(Rational::zero(), |sum, x| sum + x)
+    }
+}
+
+impl Product for Rational {
+    fn product<I: Iterator<Item = Rational>>(all: I) -> Self {
+        all.fold(Rational::one(), |product, x| product * x)
+    }
+}
+
+impl Ring for Rational {
+    fn whole(number: i32) -> Self {
+        Rational::from_integer(number.into())
+    }
+}
+
+impl Field for Rational {
+    fn size(&self) -> f64 {
+        self.to_f64().abs()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use num_rational::BigRational;
+    use proptest::prelude::*;
+
+    /// Ratios that floats, decimals and quotients of such are.
+    fn ratios() -> impl Strategy<Value = Rational> {
+        let whole = prop_oneof![-9i64..10, any::<i64>()];
+        (whole, 1i64.., 0..3, -200i64..200).prop_map(|(above, below, kind, power)| {
+            let below = match kind {
+                0 => 1.into(),
+                1 => BigInt::from(10).pow((below % 40) as u32),
+                _ => below.into(),
+            };
+            Rational::new(above.into(), below).shifted(power)
+        })
+    }
+
+    fn other(x: &Rational) -> BigRational {
+        BigRational::new(x.numer().clone(), x.denom().clone())
+    }
+
+    /// In lowest terms, and the number that another implementation finds.
+    fn same(x: &Rational, y: &BigRational) -> bool {
+        (x.numer(), x.denom()) == (y.numer(), y.denom())
+    }
+
+    proptest! {
+        #[test]
+        fn operations_are_those_of_another_implementation(a in ratios(), b in ratios()) {
+            let (c, d) = (other(&a), other(&b));
+            prop_assert!(same(&a, &c) && same(&b, &d));
+            prop_assert!(same(&(&a + &b), &(&c + &d)));
+            prop_assert!(same(&(&a - &b), &(&c - &d)));
+            prop_assert!(same(&(&a * &b), &(&c * &d)));
+            if !b.is_zero() {
+                prop_assert!(same(&(&a / &b), &(&c / &d)));
+                prop_assert!(same(&b.pow(-3), &d.pow(-3)));
+            }
+            prop_assert!(same(&a.pow(3), &c.pow(3)));
+            prop_assert_eq!(a.cmp(&b), c.cmp(&d));
+            prop_assert_eq!(a.cmp(&a.clone()), Ordering::Equal);
+            prop_assert_eq!(a.is_negative(), c.is_negative());
+            prop_assert_eq!(a.is_positive(), c.is_positive());
+            prop_assert!(same(&a.abs(), &c.abs()) && same(&a.signum(), &c.signum()));
+            for (own, others) in [
+                (a.floor(), c.floor()),
+                (a.ceil(), c.ceil()),
+                (a.round(), c.round()),
+                (a.to_integer().into(), c.to_integer().into()),
+            ] {
+                prop_assert!(same(&own, &others), "{a}: {own}, {others}");
+            }
+            prop_assert_eq!(a.to_string(), c.to_string());
+            prop_assert_eq!(Some(a.to_f64()), c.to_f64());
+        }
+
+        #[test]
+        fn floats_come_back(bits in any::<u64>()) {
+            let x = f64::from_bits(bits);
+            match Rational::from_float(x) {
+                None => prop_assert!(!x.is_finite()),
+                Some(ratio) => {
+                    prop_assert_eq!(ratio.to_f64(), x);
+                    prop_assert!(same(&ratio, &BigRational::from_float(x).unwrap()));
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_beyond_floats_is_infinite() {
+        assert_eq!(Rational::one().shifted(2000).to_f64(), f64::INFINITY);
+        assert_eq!((-Rational::one()).shifted(2000).to_f64(), f64::NEG_INFINITY);
+        assert_eq!(Rational::one().shifted(-2000).to_f64(), 0.0);
+    }
+}
