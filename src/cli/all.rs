@@ -38,7 +38,7 @@ Two machines share a search: one runs it with --store a --share 1/2, the other w
 Exit codes: 0 complete, 1 partial, flexible, not served yet or not decided which figures meet what was left out, 2 bad input, 3 or 4 the certificate
 does not prove what is said (see `krawl verify --help`).")]
 pub struct Arguments {
-    /// The problem file (TOML), or a molecule (.xyz, .mol, .sdf)
+    /// The problem file (TOML), a molecule (.xyz, .mol, .sdf, .pdb), or a system of PHCpack, msolve, Macaulay2 or HomotopyContinuation.jl
     file: PathBuf,
     /// Which molecule of a file that holds several
     #[arg(long, value_name = "NAME")]

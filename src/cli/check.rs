@@ -25,7 +25,7 @@ Exit codes: 0 in order, 2 not in order, with the line and what to do, 6 over-con
 many, each with the few that it follows from or contradicts.")]
 pub struct Arguments {
     /// The problem file (TOML), `-` is standard input; or a file of SolveSpace (.slvs) or FreeCAD (.FCStd),
-    /// or a molecule (.xyz, .mol, .sdf)
+    /// or a molecule (.xyz, .mol, .sdf, .pdb)
     file: PathBuf,
     /// Which sketch of a .slvs or .FCStd file; left out, all are listed where there are several
     #[arg(long, value_name = "NAME")]
@@ -42,7 +42,7 @@ const PATTERN: usize = 40;
 /// Runs the verb and returns the exit code.
 pub fn run(arguments: &Arguments) -> u8 {
     let format = Format::of(&arguments.file.display().to_string());
-    let is_molecule = matches!(format, Some(Format::Xyz | Format::Sdf));
+    let is_molecule = matches!(format, Some(Format::Xyz | Format::Sdf | Format::Pdb));
     if format.is_some()
         && !(is_molecule && arguments.sketch.is_some())
         && !is_single(&arguments.file, is_molecule)
@@ -229,7 +229,10 @@ impl Loose {
         if file == Path::new("-") || Format::of(&file.display().to_string()).is_some() {
             return None;
         }
-        let error = Problem::read(file).err()?;
+        let error = match input::made(file) {
+            Some(made) => Problem::parse(&made.ok()?, &input::name(file)).err()?,
+            None => Problem::read(file).err()?,
+        };
         let FileFault::Problem { error: fault, .. } = &*error.fault else {
             return None;
         };

@@ -28,7 +28,7 @@ Examples:
 Exit codes: 0 complete, by a proved bound or one that you cite, 4 all paths were followed, and that there are no other solutions is
 not proved, 1 paths stopped, 2 bad input, or no certificate where one is asked for.")]
 pub struct Arguments {
-    /// The problem file (TOML)
+    /// The problem file (TOML), or a system of PHCpack, msolve, Macaulay2 or HomotopyContinuation.jl
     file: PathBuf,
     /// The solutions of a generic instance, by `krawl template`
     #[arg(long, value_name = "FILE")]

@@ -43,7 +43,7 @@ On several machines:
 Exit codes: 0 nothing new came, 4 the budget ended or sketches are in work units (the same command goes on), 2 bad
 input, or another process has the store open.")]
 pub struct Arguments {
-    /// The problem file (TOML), or a molecule (.xyz, .mol, .sdf)
+    /// The problem file (TOML), or a molecule (.xyz, .mol, .sdf, .pdb)
     file: PathBuf,
     /// The folder of the store; it is made where there is none
     #[arg(long, value_name = "DIR")]

@@ -1,9 +1,10 @@
 //! `krawl export`: the polynomial system of a problem, for other programs.
 
 use super::CLOSED;
+use super::input;
 use super::output::{self, Destination};
 use krawl::complex::{Export, export, lower_in_squares, places};
-use krawl::problem::{Problem, Target};
+use krawl::problem::Target;
 use std::io::Write;
 use std::path::PathBuf;
 
@@ -21,7 +22,7 @@ Examples:
 
 Exit codes: 0 written, 2 bad input.")]
 pub struct Arguments {
-    /// The problem file (TOML)
+    /// The problem file (TOML), or a system of another program
     file: PathBuf,
     /// The program that is to read it
     #[arg(long, value_enum)]
@@ -59,7 +60,7 @@ pub fn run(arguments: &Arguments) -> u8 {
 
 fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let file = arguments.file.display();
-    let problem = Problem::read(&arguments.file).map_err(|error| error.to_string())?;
+    let problem = input::of_equations(&arguments.file)?;
     if output::is_same_file(&arguments.out, &arguments.file) {
         return Err(format!("{file}: is the problem itself; name another file"));
     }

@@ -1,5 +1,6 @@
 //! Reading problems from files and from standard input.
 
+use super::output;
 use krawl::blocks::MOST_POINTS;
 use krawl::complete::{Surplus, has_equations_to_spare};
 use krawl::edit::{Decomposition, Setting, completed};
@@ -25,6 +26,17 @@ pub fn read(file: &Path, sketch: Option<&str>) -> Result<Problem, String> {
             let loaded = load(file, sketch)?;
             loaded.fault.map_or(Ok(loaded.problem), Err)
         }
+    }
+}
+
+/// Reads a problem file, or what becomes one: nothing of which a part would be left out or held.
+pub fn of_equations(file: &Path) -> Result<Problem, String> {
+    let name = file.display().to_string();
+    match Format::of(&name) {
+        Some(_) => Err(format!(
+            "{name}: problem files and systems of polynomials are read here, not sketches and molecules"
+        )),
+        None => read(file, None),
     }
 }
 
@@ -95,7 +107,7 @@ pub fn asked(file: &Path, sketch: Option<&str>, tolerance: Option<f64>) -> Resul
     let of_problem = |read| Asked::Problem(Box::new(read));
     match Format::of(&file.display().to_string()) {
         Some(Format::SolveSpace | Format::FreeCad) => whole(file, sketch).map(of_problem),
-        Some(Format::Xyz | Format::Sdf) => {
+        Some(Format::Xyz | Format::Sdf | Format::Pdb) => {
             let imported = import(file, sketch)?.0;
             let problem = imported.problem;
             Ok(imported
@@ -153,15 +165,24 @@ pub fn load(file: &Path, sketch: Option<&str>) -> Result<Loaded, String> {
         let (text, read) = match file == Path::new("-") {
             true => {
                 let text = standard_input()?;
-                let problem = Problem::parse(&text, STANDARD_INPUT);
+                let made = import::polynomials::problem_file(&text);
+                let name = match made {
+                    Some(_) => format!("{STANDARD_INPUT}, as a problem file"),
+                    None => STANDARD_INPUT.to_owned(),
+                };
+                let made = made.unwrap_or(Ok(text));
+                let text = made.map_err(|error| format!("{STANDARD_INPUT}: {error}"))?;
+                let problem = Problem::parse(&text, &name);
                 (Some(text), problem)
             }
-            false if is_urdf(file) => {
-                let text = text_of(file)?;
-                let problem = Problem::parse(&text, &format!("{name}, as a problem file"));
-                (Some(text), problem)
-            }
-            false => (None, Problem::read(file)),
+            false => match made(file) {
+                None => (None, Problem::read(file)),
+                Some(made) => {
+                    let text = made?;
+                    let problem = Problem::parse(&text, &format!("{name}, as a problem file"));
+                    (Some(text), problem)
+                }
+            },
         };
         return match read {
             Ok(problem) => Ok(Loaded {
@@ -199,21 +220,29 @@ pub fn load(file: &Path, sketch: Option<&str>) -> Result<Loaded, String> {
     })
 }
 
-/// Whether a file has a robot in URDF, which is read as the problem file that it becomes.
-pub fn is_urdf(file: &Path) -> bool {
-    let extension = file.extension().unwrap_or_default();
-    extension.eq_ignore_ascii_case("urdf")
-}
-
-/// The text of a problem file, or of what a robot becomes as one.
-fn text_of(file: &Path) -> Result<String, String> {
-    let text = bytes(file)?;
-    let text = String::from_utf8(text)
-        .map_err(|_| format!("{}: is not a text in UTF-8", file.display()))?;
-    match is_urdf(file) {
-        true => import::urdf::problem_file(&text).map_err(|e| format!("{}: {e}", file.display())),
-        false => Ok(text),
+/// The problem file that a file of another kind becomes, a robot in URDF or a system of polynomials; nothing for all other files.
+pub fn made(file: &Path) -> Option<Result<String, String>> {
+    let name = file.display().to_string();
+    let has = |ending| {
+        file.extension()
+            .is_some_and(|e| e.eq_ignore_ascii_case(ending))
+    };
+    let is_other = has("toml") || Format::of(&name).is_some();
+    // What can be read but once, as a pipe, is a problem file.
+    let about = std::fs::metadata(file).ok().filter(|_| !is_other)?;
+    if !about.is_file() || about.len() > MAX_FILE_SIZE {
+        return None;
     }
+    let text = std::fs::read_to_string(file).ok()?;
+    let made = match has("urdf") {
+        true => Some(import::urdf::problem_file(&text)),
+        false => import::polynomials::problem_file(&text).map(|made| {
+            let stem = file.file_stem().unwrap_or_default().to_string_lossy();
+            let name = serde_json::Value::from(stem);
+            Ok(format!("name = {name}\n{}", made?))
+        }),
+    };
+    made.map(|made| made.map_err(|error| format!("{name}: {error}")))
 }
 
 /// Reads a sketch of another program's file.
@@ -221,6 +250,10 @@ pub fn import(file: &Path, sketch: Option<&str>) -> Result<(Imported, Vec<u8>), 
     let name = file.display().to_string();
     let bytes = bytes(file)?;
     let imported = import::read(&name, &bytes, sketch).map_err(|error| error.to_string())?;
+    if !imported.notes.is_empty() {
+        let (of, notes) = (&imported.problem.name, imported.notes.join("; "));
+        output::complain(&format!("{name}: {of} was read {notes}"));
+    }
     Ok((imported, bytes))
 }
 
@@ -272,7 +305,13 @@ impl Loaded {
                 import::rewrite(imported, bytes, problem, &Figure { points, radii })
             }
             None => {
-                let text = text_of(file)?;
+                let text = match made(file) {
+                    Some(made) => made?,
+                    None => {
+                        let unreadable = |e| format!("{}: cannot be read: {e}", file.display());
+                        std::fs::read_to_string(file).map_err(unreadable)?
+                    }
+                };
                 let text = krawl::edit::rewrite(&text, problem, points, objects);
                 Ok(text.map_err(|e| e.to_string())?.into_bytes())
             }

@@ -59,7 +59,7 @@ Exit codes: 0 all paths closed, 1 a run stopped (its result says where and why, 
 found), 2 bad input or results that could not be written, 5 open: a path came to an end both ways, and all between is
 proved (with --mode float: observed).")]
 pub struct Arguments {
-    /// The problem files (TOML), `-` is standard input; or sketches (.slvs, .FCStd) and molecules (.xyz, .mol, .sdf)
+    /// The problem files (TOML), `-` is standard input; or sketches (.slvs, .FCStd) and molecules (.xyz, .mol, .sdf, .pdb)
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
     /// Which sketch or molecule of a file that holds several (`krawl check` lists them)

@@ -127,9 +127,9 @@ pub(super) fn check_format(file: &Path, out: &Path) -> Result<(), String> {
     };
     let name = file.display().to_string();
     let is_problem = file == Path::new("-") || Format::of(&name).is_none();
-    if input::is_urdf(file) && of(out) != "toml" {
+    if input::made(file).is_some() && of(out) != "toml" {
         return Err(format!(
-            "{}: a robot is written as a problem file: give it the ending .toml",
+            "{}: a robot or a system of polynomials is written as a problem file: give it the ending .toml",
             out.display()
         ));
     }

@@ -1,5 +1,6 @@
 //! `krawl template`: fills a generic instance of a problem's equations with its complex solutions.
 
+use super::input;
 use super::output::{self, Destination};
 use super::{BAD_INPUT, CLOSED, INCOMPLETE, interrupt};
 use krawl::complex::{Effort, Fibre, Filling, Lowered, Template, Ways, fill, lower, lower_for};
@@ -116,7 +117,7 @@ pub(super) fn read(
     file: &Path,
     template: Option<&TemplateText>,
 ) -> Result<(Problem, Lowered), String> {
-    let problem = Problem::read(file).map_err(|error| error.to_string())?;
+    let problem = input::of_equations(file)?;
     let lowered = match template {
         Some(template) => lower_for(&problem, &template.text),
         None => lower(&problem),

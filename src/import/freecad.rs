@@ -707,6 +707,7 @@ pub fn read(bytes: &[u8], index: usize) -> Result<Imported, String> {
     } = reader.drawing.finish(name, source);
     let tied = tied(object, &sources, &problem);
     Ok(Imported {
+        notes: Vec::new(),
         tied,
         problem,
         unsupported,

@@ -1,5 +1,5 @@
 //! Files of other programs, in and out: sketches of SolveSpace (`.slvs`) and FreeCAD (`.FCStd`), molecules (`.xyz`,
-//! `.mol`, `.sdf`), robots (`.urdf`), which become problem files.
+//! `.mol`, `.sdf`, `.pdb`), robots (`.urdf`) and systems of polynomials, which become problem files.
 //!
 //! A file may hold several sketches; [`list`] says which, and [`read`] takes one. What it says becomes a
 //! [`Problem`] in the sketch's own frame, with the kinds of constraints that krawl has. A kind that krawl does not
@@ -28,6 +28,7 @@ mod drawing;
 #[cfg(feature = "freecad")]
 mod freecad;
 mod molecule;
+pub mod polynomials;
 mod slvs;
 #[cfg(feature = "freecad")]
 pub mod urdf;
@@ -50,6 +51,8 @@ pub enum Format {
     Xyz,
     /// MDL's molfiles, `.mol` and `.sdf`.
     Sdf,
+    /// The Protein Data Bank's files, `.pdb` and `.ent`.
+    Pdb,
 }
 
 impl Format {
@@ -61,6 +64,7 @@ impl Format {
             "fcstd" => Some(Format::FreeCad),
             "xyz" => Some(Format::Xyz),
             "mol" | "sdf" => Some(Format::Sdf),
+            "pdb" | "ent" => Some(Format::Pdb),
             _ => None,
         }
     }
@@ -91,6 +95,8 @@ pub struct Imported {
     pub unsupported: BTreeMap<String, usize>,
     /// Of a molecule: the distances of bonds and bond angles that [`Imported::problem`] has not, and what it has in place of such.
     pub surplus: Option<Surplus>,
+    /// What was taken of what the file has, in words that follow *it was read*: the first of several places of an atom, no water.
+    pub notes: Vec<String>,
     /// Dimensions that the file's own program computes.
     pub tied: Vec<Tied>,
     places: Places,
@@ -129,7 +135,7 @@ pub struct Figure<'a> {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ImportError {
     /// The extension tells no format.
-    #[error("{0}: is no .slvs, .FCStd, .xyz, .mol or .sdf file")]
+    #[error("{0}: is no .slvs, .FCStd, .xyz, .mol, .sdf or .pdb file")]
     Format(String),
     /// It cannot be read as what its extension says.
     #[error("{file}: {what}")]

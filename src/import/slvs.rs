@@ -944,6 +944,7 @@ pub fn read(bytes: &[u8], index: usize) -> Result<Imported, String> {
         sources,
     } = drawing.finish(name.clone(), source);
     Ok(Imported {
+        notes: Vec::new(),
         tied: Vec::new(),
         unsupported,
         surplus: None,

@@ -1,5 +1,5 @@
 //! What several of the tests need: shipped problems, runs, and checks that share no code with the
-//! trackers.
+//! trackers, but the exact ratios, which the tests of `crates/kernel` compare with others.
 
 pub mod boxes;
 pub mod certificate;

@@ -1,8 +1,9 @@
 //! Every operation on intervals that proofs use encloses the exact rational result.
 
-use crate::common::exact::exact;
 use krawl::interval::{Interval, enclose_rational, hull};
 use krawl::rational::Rational;
+use num_rational::BigRational;
+use num_traits::Signed;
 use proptest::prelude::*;
 
 /// Floats of all sizes for which no operation here overflows, subnormal ones among them.
@@ -17,17 +18,22 @@ fn float() -> impl Strategy<Value = f64> {
 }
 
 /// An interval and exact points of it: both ends and one between.
-fn interval() -> impl Strategy<Value = (Interval, Vec<Rational>)> {
+/// The number that a float is, as another library has it.
+fn exact(x: f64) -> BigRational {
+    BigRational::from_float(x).expect("a finite float")
+}
+
+fn interval() -> impl Strategy<Value = (Interval, Vec<BigRational>)> {
     (float(), float(), 0u32..=100, any::<bool>()).prop_map(|(a, b, part, thin)| {
         let b = if thin { a.next_up() } else { b };
         let (lo, hi) = (a.min(b), a.max(b));
         let (x, y) = (exact(lo), exact(hi));
-        let between = &x + (&y - &x) * Rational::new(part.into(), 100.into());
+        let between = &x + (&y - &x) * BigRational::new(part.into(), 100.into());
         (hull(lo, hi), vec![x, between, y])
     })
 }
 
-fn encloses(interval: Interval, x: &Rational) -> bool {
+fn encloses(interval: Interval, x: &BigRational) -> bool {
     let (lo, hi) = (interval.inf(), interval.sup());
     (lo == f64::NEG_INFINITY || exact(lo) <= *x) && (hi == f64::INFINITY || *x <= exact(hi))
 }
@@ -80,7 +86,7 @@ proptest! {
     /// What the checker and the lengths decide by, and what they put together.
     #[test]
     fn hulls_intersections_and_comparisons_are_those_of_sets((a, xs) in interval(), (b, ys) in interval()) {
-        let within = |c: &[Rational], x: &Rational| c[0] <= *x && *x <= c[2];
+        let within = |c: &[BigRational], x: &BigRational| c[0] <= *x && *x <= c[2];
         let all = a.convex_hull(b);
         prop_assert!(xs.iter().chain(&ys).all(|x| encloses(all, x)));
         let both = a.intersection(b);
@@ -94,8 +100,8 @@ proptest! {
             prop_assert_eq!(a.contains(y), within(&xs, &exact(y)));
         }
         // The tightest floats around an exact number that is none.
-        let third = &xs[1] / Rational::from_integer(3.into());
-        let box_ = enclose_rational(&third);
+        let third = &xs[1] / BigRational::from_integer(3.into());
+        let box_ = enclose_rational(&Rational::new(third.numer().clone(), third.denom().clone()));
         prop_assert!(encloses(box_, &third) && box_.sup() <= box_.inf().next_up());
     }
 
@@ -112,7 +118,7 @@ proptest! {
         let value = coefficients.iter().rev().fold(hull(0.0, 0.0), |sum, (c, _)| sum * t + *c);
         for x in &ts {
             for which in 0..3 {
-                let zero = Rational::from_integer(0.into());
+                let zero = BigRational::from_integer(0.into());
                 let exact_value = coefficients.iter().rev().fold(zero, |sum, (_, c)| sum * x + &c[which]);
                 prop_assert!(encloses(value, &exact_value));
             }

@@ -220,3 +220,48 @@ fn tables_drive_several_dimensions() {
         assert!(error.contains(why), "{wrong}: {error}");
     }
 }
+
+/// Molecules go into files of the kind that they were read from; a system of polynomials becomes a problem file.
+#[test]
+fn what_is_taken_is_of_the_kind_of_its_file() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = |name: &str| directory.path().join(name).to_string_lossy().into_owned();
+    let water = [
+        ("O", [0.0, 0.0, 0.117]),
+        ("H", [0.757, 0.0, -0.471]),
+        ("H", [-0.757, 0.0, -0.47]),
+    ];
+    let (mut xyz, mut pdb) = ("3\nwater\n".to_owned(), String::new());
+    for (k, (element, [x, y, z])) in water.iter().enumerate() {
+        xyz += &format!("{element} {x} {y} {z}\n");
+        pdb += &format!(
+            "HETATM{k:5}  {element}   LIG A   1    {x:8.3}{y:8.3}{z:8.3}  1.00  0.00           {element}  \n"
+        );
+    }
+    let curves = "x, y\n0\nx^2+y^2-4,\nx*y-1\n".to_owned();
+    for (ending, text, out) in [
+        ("xyz", xyz, "xyz"),
+        ("pdb", pdb, "pdb"),
+        ("txt", curves, "toml"),
+    ] {
+        let (file, taken) = (
+            path(&format!("read.{ending}")),
+            path(&format!("taken.{out}")),
+        );
+        std::fs::write(&file, text).unwrap();
+        let (code, _, error) = krawl(&["all", &file, "--pick", "1", "--out", &taken]);
+        assert_eq!(code, Some(0), "{ending}: {error}");
+        let (code, table, error) = krawl(&["all", &taken]);
+        assert_eq!(code, Some(0), "{ending}: {error}");
+        assert!(table.contains("Complete, proved"), "{table}");
+        if ending != out {
+            let wrong = path("taken.txt");
+            let (code, _, error) = krawl(&["all", &file, "--pick", "1", "--out", &wrong]);
+            assert_eq!(code, Some(2), "{error}");
+            assert!(error.contains("give it the ending .toml"), "{error}");
+        }
+    }
+    // What would leave parts of a molecule out is refused.
+    let (code, _, error) = krawl(&["complex", &path("read.xyz")]);
+    assert_eq!(code, Some(2), "{error}");
+}

@@ -3,7 +3,9 @@
 
 use assert_cmd::Command;
 use krawl::complete::{Options, Status, all};
+use krawl::complex::{Export, export, lower_in_squares};
 use krawl::edit::{Ending, Session, Setting};
+use krawl::import::polynomials;
 use krawl::problem::Problem;
 use krawl::system::Located;
 use krawl::track::prove;
@@ -63,6 +65,32 @@ fn a_circle_and_a_hyperbola_meet_in_four_places() {
         ]
     });
     are(&found, &places);
+}
+
+/// Systems for other programs have the solutions of the problems that they were made of: each is read again as what it is.
+#[test]
+fn what_is_exported_is_read_again() {
+    let triangles = "dimension = 2\n[points]\na = [0, 0]\nb = [3, 0]\nc = [1, 2]\nd = [2, -2]\n[constraints]\n\
+        distances = [[\"a\", \"b\", 3], [\"a\", \"c\", 2], [\"b\", \"c\", 2.5], [\"a\", \"d\", 2.5], [\"b\", \"d\", 2]]\n";
+    let curves = std::fs::read_to_string("docs/examples/circle-hyperbola.toml").unwrap();
+    // What is seen from its first two points is there four times, with x and y of either sign.
+    for (text, times) in [(triangles, 4), (&curves, 1)] {
+        let problem = read(text);
+        let wanted = times * all(&problem, &Options::default()).unwrap().count.unwrap();
+        let system = lower_in_squares(&problem).unwrap().system;
+        for to in [
+            Export::PhcPack,
+            Export::Macaulay2,
+            Export::Msolve,
+            Export::HomotopyContinuation,
+        ] {
+            let exported = export(&system, to, 1.0).unwrap();
+            let made = polynomials::problem_file(&exported).unwrap().unwrap();
+            let (found, is_complete) = real(&read(&made));
+            assert!(is_complete, "{made}");
+            assert_eq!(found.len() as u64, wanted, "{made}");
+        }
+    }
 }
 
 #[test]

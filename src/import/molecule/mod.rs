@@ -1,4 +1,4 @@
-//! Molecules: XYZ (`.xyz`) and MDL's molfiles (`.mol`, `.sdf`, version V2000).
+//! Molecules: XYZ (`.xyz`), MDL's molfiles (`.mol`, `.sdf`, version V2000), and the Protein Data Bank's files (`.pdb`, `.ent`).
 //!
 //! Atoms are points, and what is known of their distances from bonds, bond angles and rings are distances: of atoms that
 //! are bonded (1-2), that are bonded to the same one (1-3), and at the ends of three bonds of rings in a row (1-4), as the
@@ -13,6 +13,7 @@
 //! and others, Dalton Transactions 2008) and 0.45 Å, as Open Babel does.
 
 mod hold;
+mod pdb;
 
 use super::{Figure, Format, Imported, Listed, Places as AllPlaces};
 use crate::complete::{Spare, Surplus};
@@ -40,6 +41,8 @@ struct Molecule<'a> {
     name: String,
     atoms: Vec<(&'a str, [&'a str; 3], usize)>,
     bonds: Option<Vec<[usize; 2]>>,
+    /// What was taken of what the file has, in words.
+    notes: Vec<String>,
 }
 
 /// The text of a file. Comments that are no UTF-8 are taken for Latin-1; so the second is whether they were.
@@ -61,6 +64,7 @@ fn molecules(text: &str, format: Format) -> Result<Vec<Molecule<'_>>, String> {
         .collect();
     let mut all = match format {
         Format::Xyz => xyz(&lines)?,
+        Format::Pdb => pdb::chains(&lines)?,
         _ => molfiles(&lines)?,
     };
     let names: Vec<String> = all.iter().map(|m| m.name.clone()).collect();
@@ -106,6 +110,7 @@ fn xyz<'a>(lines: &[&'a str]) -> Result<Vec<Molecule<'a>>, String> {
             name: if name.is_empty() { "molecule" } else { name }.to_owned(),
             atoms,
             bonds: None,
+            notes: Vec::new(),
         });
     }
     Ok(all)
@@ -153,6 +158,7 @@ fn molfiles<'a>(lines: &[&'a str]) -> Result<Vec<Molecule<'a>>, String> {
             name: lines[begin].trim().to_owned(),
             atoms: Vec::new(),
             bonds: Some(Vec::new()),
+            notes: Vec::new(),
         };
         if out.name.is_empty() {
             out.name = "molecule".to_owned();
@@ -372,7 +378,9 @@ pub fn read(bytes: &[u8], format: Format, index: usize) -> Result<Imported, Stri
         .collect();
     let length = |[a, b]: [usize; 2]| format!("{:.6}", apart(a, b));
     let reading = Reading::new(&held, &told, &names);
-    let mut builder = Problem::build(&molecule.name, 3).source(&reading.in_words());
+    let notes = molecule.notes.iter().map(|note| format!(", {note}"));
+    let source = reading.in_words() + &notes.collect::<String>();
+    let mut builder = Problem::build(&molecule.name, 3).source(&source);
     for (name, place) in names.iter().zip(&places) {
         let coordinates =
             place.map(|x| super::drawing::decimal(x).unwrap_or_else(|| Decimal::from(0)));
@@ -413,6 +421,7 @@ pub fn read(bytes: &[u8], format: Format, index: usize) -> Result<Imported, Stri
         added: reading.added,
     });
     Ok(Imported {
+        notes: molecule.notes,
         tied: Vec::new(),
         problem,
         unsupported: BTreeMap::new(),
@@ -510,30 +519,37 @@ fn bend(problem: &Problem) -> Option<usize> {
 
 /// The file with new coordinates, all other characters as they were.
 pub fn rewrite(places: &Places, bytes: &[u8], figure: &Figure) -> Result<Vec<u8>, String> {
+    let too_large = |line: usize, file: &str| {
+        let line = line + 1;
+        format!("line {line}: a coordinate is too large for the columns of a {file}")
+    };
     let (text, is_latin) = text(bytes);
-    let mut lines: Vec<String> = text.split('\n').map(str::to_owned).collect();
+    let body = text.trim_start_matches('\u{feff}');
+    let mark = &text[..text.len() - body.len()];
+    let mut lines: Vec<String> = body.split('\n').map(str::to_owned).collect();
     for (&line, place) in places.lines.iter().zip(figure.points) {
         let old = lines
             .get_mut(line)
             .ok_or("an atom is missing: this is another file")?;
         *old = match places.format {
             Format::Xyz => with_fields(old, 1, place, 10),
+            Format::Pdb if pdb::is_at(old, place) => old.clone(),
+            Format::Pdb => {
+                pdb::with_place(old, place).ok_or_else(|| too_large(line, "PDB file"))?
+            }
             _ if in_columns(old).is_some() => {
                 // Without a sign of zero.
                 let [x, y, z] =
                     place.map(|x| format!("{:10.4}", x + 0.0).replace("-0.0000", " 0.0000"));
                 if [&x, &y, &z].iter().any(|text| text.len() > 10) {
-                    return Err(format!(
-                        "line {}: a coordinate is too large for the columns of a molfile",
-                        line + 1
-                    ));
+                    return Err(too_large(line, "molfile"));
                 }
                 format!("{x}{y}{z}{}", old.get(30..).unwrap_or(""))
             }
             _ => with_fields(old, 0, place, 4),
         };
     }
-    let text = lines.join("\n");
+    let text = mark.to_owned() + &lines.join("\n");
     Ok(match is_latin {
         // Every character was a byte.
         true => text.chars().map(|c| c as u8).collect(),

@@ -44,10 +44,9 @@ pub enum FileFault {
     /// It is not a text.
     #[error("is not a text in UTF-8")]
     NotUtf8,
-    /// It is a molecule in a format that is not read.
+    /// It is a molecule of the Protein Data Bank.
     #[error(
-        "is a PDB file, a molecule's atoms of the Protein Data Bank, which krawl does not read: give the molecule as .sdf or \
-         .mol, which have its bonds, or as .xyz"
+        "has the records of a PDB file, a molecule's atoms: such files are read by the ending .pdb"
     )]
     Pdb,
     /// It is not TOML.
@@ -227,9 +226,6 @@ fn read(path: &Path) -> Result<(Problem, Vec<Published>), FileError> {
         let line = 1 + valid.iter().filter(|&&byte| byte == b'\n').count();
         fail(Some(line), FileFault::NotUtf8)
     })?;
-    let extension = path.extension().and_then(|extension| extension.to_str());
-    let is_named_so = extension
-        .is_some_and(|extension| ["pdb", "ent"].contains(&&*extension.to_ascii_lowercase()));
     let first = text.lines().find(|line| !line.trim().is_empty());
     let is_record = first.is_some_and(|line| {
         let records = [
@@ -237,7 +233,7 @@ fn read(path: &Path) -> Result<(Problem, Vec<Published>), FileError> {
         ];
         records.iter().any(|record| line.starts_with(record)) && !line.contains('=')
     });
-    if is_named_so || is_record {
+    if is_record {
         return Err(fail(None, FileFault::Pdb));
     }
     Reader::new(&text, &file).problem()
