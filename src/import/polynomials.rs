@@ -17,7 +17,7 @@ struct System {
 /// ```
 /// use krawl::problem::Problem;
 /// let text = krawl::import::polynomials::problem_file("x, y\n0\nx^2 + y^2 - 4,\nx*y - 1\n").unwrap().unwrap();
-/// assert_eq!(Problem::parse(&text, "system.ms").unwrap().equations.len(), 2);
+/// assert_eq!(Problem::parse(&text, "system.ms").unwrap().constraints.len(), 2);
 /// ```
 ///
 /// # Errors
@@ -100,7 +100,7 @@ fn in_brackets(text: &str) -> Option<(&str, &str)> {
     Some((inner, rest[1..].lines().next().unwrap_or_default().trim()))
 }
 
-/// What is in the brackets of the one call of a function whose result is given a name, or is all of the line.
+/// What is in the brackets of the one call of a function whose result is given a name, or is all of its line.
 fn of_call<'a>(text: &'a str, function: &str) -> Result<&'a str, String> {
     let found = text.split_once(function).and_then(|(before, behind)| {
         let line = before
@@ -108,7 +108,8 @@ fn of_call<'a>(text: &'a str, function: &str) -> Result<&'a str, String> {
             .next_back()
             .filter(|_| !before.ends_with('\n'));
         let is_named = |line: &str| {
-            let name = line.trim_end().trim_end_matches([':', '=']).trim();
+            let own = line.rsplit(';').next().unwrap_or_default();
+            let name = own.trim_end().trim_end_matches([':', '=']).trim();
             name.chars().all(|c| c.is_alphanumeric() || c == '_')
         };
         let (inner, rest) = in_brackets(behind.trim_start().strip_prefix(['(', '{'])?)?;
@@ -348,7 +349,7 @@ mod tests {
         " 2 2\nx^2+y^2-4;x*y-1;",
         "x, y\n0\nx^2+y^2-4,\nx*y-1\n",
         "R = QQ[x, y, MonomialOrder => Lex] -- two\nI = ideal(x^2+y^2-4, -- a circle\n x*y-1)\n",
-        "R = RR[x,y];\nI = ideal({x^2+y^2-4, x*(y)-1});",
+        "R = RR[x,y]; I = ideal({x^2+y^2-4, x*(y)-1});",
         "using HomotopyContinuation\n@var x y # two\nF = System([x^2+y^2-4, x*y-1]; variables = [x, y])\n",
         "System of length 2\n 2 variables: x, y\n\n -4 + x^2 + y^2\n -1 + x*y\n",
     ];
