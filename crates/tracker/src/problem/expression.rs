@@ -5,6 +5,7 @@ use super::{Decimal, DecimalError};
 use crate::rational::Rational;
 use num_bigint::BigInt;
 use num_traits::Signed;
+use std::borrow::Cow;
 
 /// A number that has no end as a decimal, as a third, is taken to so many digits.
 const DIGITS: i32 = 30;
@@ -12,8 +13,18 @@ const DIGITS: i32 = 30;
 pub(super) const MOST_POWER: u32 = 20;
 /// No number on the way has more bits than this, above or below.
 const MOST_BITS: u64 = 20_000;
+/// So many letters of an expression stand in a message.
+const MOST_SHOWN: usize = 200;
 /// Parentheses and signs in one another.
 const DEPTH: usize = 50;
+
+/// A text that is short enough to stand in a message, or how it begins.
+fn beginning(text: &str) -> Cow<'_, str> {
+    match text.char_indices().nth(MOST_SHOWN) {
+        None => text.into(),
+        Some((end, _)) => format!("{}…", &text[..end]).into(),
+    }
+}
 
 /// The value of an expression of numbers and parameters with `+ - * / ^` and parentheses, where the power of `^` is a whole number.
 ///
@@ -230,13 +241,21 @@ impl<'a, A: Algebra> Reader<'a, A> {
     /// The message that something else was expected.
     pub(super) fn wrong(&mut self, what: &str) -> String {
         match self.peek() {
-            None => format!("`{}` ends where {what}", self.text),
-            Some(_) => format!("`{}`: {what} at `{}`", self.text, &self.text[self.at..]),
+            None => format!("`{}` ends where {what}", self.shown()),
+            Some(_) => {
+                let rest = beginning(&self.text[self.at..]);
+                format!("`{}`: {what} at `{rest}`", self.shown())
+            }
         }
     }
 
+    /// The text, or how it begins, for messages.
+    fn shown(&self) -> Cow<'_, str> {
+        beginning(self.text)
+    }
+
     fn named<T>(&self, result: Result<T, String>) -> Result<T, String> {
-        result.map_err(|why| format!("`{}`{why}", self.text))
+        result.map_err(|why| format!("`{}`{why}", self.shown()))
     }
 
     /// A sum, up to what can be no part of it.
@@ -279,7 +298,7 @@ impl<'a, A: Algebra> Reader<'a, A> {
         if self.depth > DEPTH {
             return Err(format!(
                 "`{}` has too many parentheses or signs in one another",
-                self.text
+                self.shown()
             ));
         }
         let value = match (self.take('-'), self.peek()) {
@@ -310,7 +329,7 @@ impl<'a, A: Algebra> Reader<'a, A> {
         let power = power.ok_or_else(|| {
             format!(
                 "`{}`: a power is a whole number from 0 to {MOST_POWER}",
-                self.text
+                self.shown()
             )
         })?;
         let one = self.algebra.number(Decimal::from(1));
@@ -351,7 +370,7 @@ impl<'a, A: Algebra> Reader<'a, A> {
                 let end = rest.char_indices().find_map(ends).unwrap_or(rest.len());
                 let number: Decimal = rest[..end]
                     .parse()
-                    .map_err(|error: DecimalError| format!("`{}`: {error}", self.text))?;
+                    .map_err(|error: DecimalError| format!("`{}`: {error}", self.shown()))?;
                 self.at += end;
                 let value = self.algebra.number(number);
                 self.named(value)
@@ -359,7 +378,7 @@ impl<'a, A: Algebra> Reader<'a, A> {
             Some('|') => {
                 let inner = rest[1..].split('|').next().unwrap_or_default();
                 if rest.len() < inner.len() + 2 {
-                    return Err(format!("`{}`: a second `|` was expected", self.text));
+                    return Err(format!("`{}`: a second `|` was expected", self.shown()));
                 }
                 self.at += inner.len() + 2;
                 let value = self.algebra.bars(inner.trim());
