@@ -109,6 +109,7 @@ pub fn asked(file: &Path, sketch: Option<&str>, tolerance: Option<f64>) -> Resul
         Some(Format::SolveSpace | Format::FreeCad) => whole(file, sketch).map(of_problem),
         Some(Format::Xyz | Format::Sdf | Format::Pdb) => {
             let imported = import(file, sketch)?.0;
+            tell(file, &imported);
             let problem = imported.problem;
             Ok(imported
                 .surplus
@@ -155,6 +156,15 @@ pub struct Loaded {
 /// Reads a sketch to be edited: a problem file, which may be under-constrained, or a file of another program, of which
 /// `sketch` names the sketch.
 pub fn load(file: &Path, sketch: Option<&str>) -> Result<Loaded, String> {
+    let loaded = load_again(file, sketch)?;
+    if let Some((imported, _)) = &loaded.imported {
+        tell(file, imported);
+    }
+    Ok(loaded)
+}
+
+/// The same of a file that was read before, of which nothing is said again.
+pub fn load_again(file: &Path, sketch: Option<&str>) -> Result<Loaded, String> {
     let name = file.display().to_string();
     if Format::of(&name).is_none() {
         if sketch.is_some() {
@@ -245,15 +255,19 @@ pub fn made(file: &Path) -> Option<Result<String, String>> {
     made.map(|made| made.map_err(|error| format!("{name}: {error}")))
 }
 
+/// Says what was left out of a molecule as it was read.
+fn tell(file: &Path, imported: &Imported) {
+    if !imported.notes.is_empty() {
+        let (of, notes) = (&imported.problem.name, imported.notes.join("; "));
+        output::complain(&format!("{}: {of} was read {notes}", file.display()));
+    }
+}
+
 /// Reads a sketch of another program's file.
 pub fn import(file: &Path, sketch: Option<&str>) -> Result<(Imported, Vec<u8>), String> {
     let name = file.display().to_string();
     let bytes = bytes(file)?;
     let imported = import::read(&name, &bytes, sketch).map_err(|error| error.to_string())?;
-    if !imported.notes.is_empty() {
-        let (of, notes) = (&imported.problem.name, imported.notes.join("; "));
-        output::complain(&format!("{name}: {of} was read {notes}"));
-    }
     Ok((imported, bytes))
 }
 

@@ -237,7 +237,7 @@ fn rewritten(
     problem: &Problem,
     taken: &Taken,
 ) -> Result<Vec<u8>, String> {
-    let loaded = input::load(file, sketch)?;
+    let loaded = input::load_again(file, sketch)?;
     let of_point = |name: &str| problem.points.iter().position(|p| p.name == name);
     let of_object = |name: &str| problem.objects.iter().position(|o| o.name == name);
     let points = loaded.problem.points.iter().map(|point| {

@@ -95,7 +95,7 @@ pub struct Imported {
     pub unsupported: BTreeMap<String, usize>,
     /// Of a molecule: the distances of bonds and bond angles that [`Imported::problem`] has not, and what it has in place of such.
     pub surplus: Option<Surplus>,
-    /// What was taken of what the file has, in words that follow *it was read*: the first of several places of an atom, no water.
+    /// What was left out of what the file has, in words that follow *it was read*, as `without its water (3)`.
     pub notes: Vec<String>,
     /// Dimensions that the file's own program computes.
     pub tied: Vec<Tied>,

@@ -5,8 +5,6 @@ use std::fmt::Write;
 
 /// A system of polynomials, each of which is to be zero.
 struct System {
-    /// Whose form it has.
-    program: &'static str,
     unknowns: Vec<String>,
     polynomials: Vec<String>,
 }
@@ -30,20 +28,21 @@ pub fn problem_file(text: &str) -> Option<Result<String, String>> {
         let mut lines = text.lines().map(str::trim_start);
         lines.any(|line| !line.starts_with('#') && is_so(line))
     };
-    let system = if first.starts_with(PRINTED) {
-        printed(text)
+    let (program, system) = if first.starts_with(PRINTED) {
+        (JULIA, printed(text))
     } else if has(&|line| declared(line).is_some()) {
-        homotopy_continuation(text)
+        (JULIA, homotopy_continuation(text))
     } else if has(&|line| RINGS.iter().any(|ring| line.contains(ring))) && text.contains("ideal") {
-        macaulay2(text)
+        ("Macaulay2", macaulay2(text))
     } else if let Ok([_] | [_, _]) = numbers.collect::<Result<Vec<_>, _>>().as_deref() {
-        phcpack(text)
+        ("PHCpack", phcpack(text))
     } else if second.parse::<u64>().is_ok() && !first.contains('=') {
-        msolve(text)
+        ("msolve", msolve(text))
     } else {
         return None;
     };
-    Some(system.map(|system| in_toml(&system)))
+    let wrong = |what| format!("is read as a system of {program}: {what}");
+    Some(system.map(|it| in_toml(program, &it)).map_err(wrong))
 }
 
 /// How HomotopyContinuation.jl begins to print a system.
@@ -55,9 +54,9 @@ const JULIA: &str = "HomotopyContinuation.jl";
 /// How rings of polynomials begin in Macaulay2.
 const RINGS: [&str; 4] = ["QQ[", "ZZ[", "RR[", "CC["];
 
-fn in_toml(system: &System) -> String {
+fn in_toml(program: &str, system: &System) -> String {
     let quoted = |text: &String| serde_json::to_string(text).expect("a text");
-    let mut out = format!("# A system of {}.\nequations = [\n", system.program);
+    let mut out = format!("# A system of {program}.\nequations = [\n");
     for polynomial in &system.polynomials {
         writeln!(out, "    {},", quoted(polynomial)).expect("memory");
     }
@@ -134,15 +133,18 @@ fn without_comments(text: &str, mark: &str, long: &str) -> Result<String, String
     Ok(lines.collect::<Vec<_>>().join("\n"))
 }
 
-/// What is wrong with the system of a program.
-fn wrong(program: &str, what: &str) -> String {
-    format!("is read as a system of {program}: {what}")
+/// Refuses unknowns that are several by one name, which has this mark.
+fn one_by_one(unknowns: &[String], mark: &str) -> Result<(), String> {
+    match unknowns.iter().find(|name| name.contains(mark)) {
+        Some(range) => Err(format!(
+            "name the unknowns one by one in place of `{range}`"
+        )),
+        None => Ok(()),
+    }
 }
 
 /// The numbers of polynomials and of unknowns, which are as many where there is but one number; and the polynomials with a `;` behind each.
 fn phcpack(text: &str) -> Result<System, String> {
-    let program = "PHCpack";
-    let wrong = |what: &str| wrong(program, what);
     let (first, rest) = text.trim_start().split_once('\n').unwrap_or_default();
     let mut announced = first
         .split_whitespace()
@@ -152,10 +154,10 @@ fn phcpack(text: &str) -> Result<System, String> {
     let parts: Vec<&str> = rest.split(';').collect();
     let polynomials: Vec<String> = parts[..parts.len() - 1].iter().map(on_one_line).collect();
     if count == 0 || polynomials.len() != count {
-        return Err(wrong(&format!(
+        return Err(format!(
             "{count} polynomials are announced, with a `;` behind each: there are {}",
             polynomials.len()
-        )));
+        ));
     }
     let is_part = |c: char| c.is_alphanumeric() || c == '_' || c == '.';
     let mut unknowns = Vec::new();
@@ -164,22 +166,21 @@ fn phcpack(text: &str) -> Result<System, String> {
         .flat_map(|text| text.split(|c| !is_part(c)))
     {
         if ["i", "I"].contains(&name) {
-            return Err(wrong(&format!(
+            return Err(format!(
                 "`{name}` is the imaginary unit, and krawl reads real coefficients"
-            )));
+            ));
         }
         if name.starts_with(char::is_alphabetic) && !unknowns.iter().any(|known| known == name) {
             unknowns.push(name.to_owned());
         }
     }
     if unknowns.len() != unknowns_announced {
-        return Err(wrong(&format!(
+        return Err(format!(
             "{unknowns_announced} unknowns are announced, and these are named: {}",
             unknowns.join(", ")
-        )));
+        ));
     }
     Ok(System {
-        program,
         unknowns,
         polynomials,
     })
@@ -187,7 +188,6 @@ fn phcpack(text: &str) -> Result<System, String> {
 
 /// The unknowns, the characteristic, and polynomials with commas between.
 fn msolve(text: &str) -> Result<System, String> {
-    let program = "msolve";
     let mut lines = text.lines().filter(|line| !line.trim().is_empty());
     let unknowns = between_commas(lines.next().unwrap_or_default());
     let characteristic = lines.next().unwrap_or_default().trim();
@@ -195,12 +195,11 @@ fn msolve(text: &str) -> Result<System, String> {
         let what = format!(
             "its characteristic is {characteristic}, and that of real and complex numbers is 0"
         );
-        return Err(wrong(program, &what));
+        return Err(what);
     }
     let polynomials = between_commas(&lines.collect::<Vec<_>>().join("\n"));
     let polynomials = polynomials.iter().map(on_one_line).collect();
     Ok(System {
-        program,
         unknowns,
         polynomials,
     })
@@ -208,38 +207,30 @@ fn msolve(text: &str) -> Result<System, String> {
 
 /// A ring of polynomials, and an ideal of them.
 fn macaulay2(text: &str) -> Result<System, String> {
-    let program = "Macaulay2";
-    let wrong = |what: &str| wrong(program, what);
-    let text = without_comments(text, "--", "-*").map_err(|what| wrong(&what))?;
+    let text = without_comments(text, "--", "-*")?;
     let rings = RINGS.iter().flat_map(|ring| text.match_indices(ring));
     let [(at, ring)] = rings.collect::<Vec<_>>()[..] else {
-        return Err(wrong("one ring was expected, such as `QQ[x, y]`"));
+        return Err("one ring was expected, such as `QQ[x, y]`".to_owned());
     };
     let ring = in_brackets(&text[at + ring.len()..])
         .filter(|(_, rest)| rest.is_empty() || rest.starts_with(';'));
-    let (ring, _) = ring.ok_or_else(|| wrong("the ring was expected to end its line with `]`"))?;
+    let (ring, _) =
+        ring.ok_or_else(|| "the ring was expected to end its line with `]`".to_owned())?;
     let mut unknowns = between_commas(ring);
     unknowns.retain(|name| !name.contains("=>"));
-    if let Some(range) = unknowns.iter().find(|name| name.contains("..")) {
-        return Err(wrong(&format!(
-            "name the unknowns one by one in place of `{range}`"
-        )));
-    }
-    let ideal = of_call(&text, "ideal").map_err(|what| wrong(&what))?.trim();
+    one_by_one(&unknowns, "..")?;
+    let ideal = of_call(&text, "ideal")?.trim();
     let list = match ideal.strip_prefix('{') {
         None => ideal,
         Some(list) => match ideal.strip_suffix('}').is_some().then(|| in_brackets(list)) {
             Some(Some((inner, ""))) if inner.len() + 2 == ideal.len() => inner,
             _ => {
-                return Err(wrong(
-                    "one list of polynomials was expected in `ideal({…})`",
-                ));
+                return Err("one list of polynomials was expected in `ideal({…})`".to_owned());
             }
         },
     };
     let polynomials = between_commas(list).iter().map(on_one_line).collect();
     Ok(System {
-        program,
         unknowns,
         polynomials,
     })
@@ -253,39 +244,28 @@ fn declared(line: &str) -> Option<&str> {
 
 /// The program of HomotopyContinuation.jl's that declares unknowns and makes a system of them.
 fn homotopy_continuation(text: &str) -> Result<System, String> {
-    let program = JULIA;
-    let wrong = |what: &str| wrong(program, what);
-    let text = without_comments(text, "#", "#=").map_err(|what| wrong(&what))?;
+    let text = without_comments(text, "#", "#=")?;
     let names = text.lines().filter_map(declared);
     let names = names.flat_map(|line| line.split([' ', '\t', ',', ';']));
     let unknowns: Vec<String> = names
         .filter(|name| !name.is_empty())
         .map(str::to_owned)
         .collect();
-    if let Some(range) = unknowns.iter().find(|name| name.contains('[')) {
-        return Err(wrong(&format!(
-            "name the unknowns one by one in place of `{range}`"
-        )));
-    }
-    let all = of_call(&text, "System")
-        .map_err(|what| wrong(&what))?
-        .trim();
+    one_by_one(&unknowns, "[")?;
+    let all = of_call(&text, "System")?.trim();
     if all.contains("parameters") {
-        return Err(wrong("put numbers for its parameters"));
+        return Err("put numbers for its parameters".to_owned());
     }
     let list = all.strip_prefix('[').and_then(in_brackets);
     let list = list.filter(|(_, rest)| rest.is_empty() || rest.starts_with([',', ';']));
-    let (list, _) = list.ok_or_else(|| wrong("`System([…])` was expected"))?;
+    let (list, _) = list.ok_or_else(|| "`System([…])` was expected".to_owned())?;
     let polynomials = between_commas(list);
     // In brackets a new line begins a new entry in Julia, comma or not.
     if polynomials.iter().any(|text| text.contains('\n')) {
-        return Err(wrong(
-            "write each polynomial on one line, with commas between them",
-        ));
+        return Err("write each polynomial on one line, with commas between them".to_owned());
     }
     let polynomials = polynomials.iter().map(|text| with_ratios(text)).collect();
     Ok(System {
-        program,
         unknowns,
         polynomials,
     })
@@ -312,26 +292,24 @@ fn with_ratios(text: &str) -> String {
 
 /// A system as HomotopyContinuation.jl prints it.
 fn printed(text: &str) -> Result<System, String> {
-    let program = JULIA;
-    let wrong = |what: &str| wrong(program, what);
     let mut lines = text.lines().map(str::trim).filter(|line| !line.is_empty());
     let length = lines
         .next()
         .and_then(|line| line.strip_prefix(PRINTED)?.trim().parse().ok());
     let variables = lines.next().and_then(|line| line.split_once("variables:"));
-    let (number, variables) = variables.ok_or_else(|| wrong("a line of variables was expected"))?;
+    let (number, variables) =
+        variables.ok_or_else(|| "a line of variables was expected".to_owned())?;
     let unknowns = between_commas(variables);
     let polynomials: Vec<String> = lines.map(with_ratios).collect();
     if polynomials.iter().any(|line| line.contains("parameters:")) {
-        return Err(wrong("put numbers for its parameters"));
+        return Err("put numbers for its parameters".to_owned());
     }
     if length != Some(polynomials.len()) || number.trim().parse() != Ok(unknowns.len()) {
-        return Err(wrong(
-            "there are not as many variables and lines of polynomials as it says",
-        ));
+        return Err(
+            "there are not as many variables and lines of polynomials as it says".to_owned(),
+        );
     }
     Ok(System {
-        program,
         unknowns,
         polynomials,
     })

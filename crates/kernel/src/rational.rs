@@ -45,13 +45,10 @@ fn common(x: &BigUint, odd: &BigUint) -> BigUint {
     }
 }
 
-/// Two numbers without their common divisors; the second one is positive, and stays so.
-fn lowest(mut above: BigInt, mut below: BigInt) -> (BigInt, BigInt) {
-    if below.is_one() {
-        return (above, below);
-    }
+/// The ratio of two numbers, the second of which is positive.
+fn lowest(mut above: BigInt, mut below: BigInt) -> Rational {
     if above.is_zero() {
-        return (above, BigInt::one());
+        return Rational::zero();
     }
     let both = twos(&above).min(twos(&below));
     if both > 0 {
@@ -68,10 +65,10 @@ fn lowest(mut above: BigInt, mut below: BigInt) -> (BigInt, BigInt) {
             below /= common;
         }
     }
-    (above, below)
+    Rational { above, below }
 }
 
-/// What two numbers below the line lack to a common one that is a multiple of both, but for twos the product.
+/// By what the numbers above the line are multiplied where two ratios are brought to one number below it: that of the other one, without the twos that both have.
 fn apart(a: &Rational, b: &Rational) -> (BigInt, BigInt) {
     let both = twos(&a.below).min(twos(&b.below));
     (&b.below >> both, &a.below >> both)
@@ -81,11 +78,10 @@ impl Rational {
     /// The ratio of two numbers, the second of which is not 0.
     pub fn new(above: BigInt, below: BigInt) -> Self {
         assert!(!below.is_zero(), "a division by zero");
-        let (above, below) = match below.is_negative() {
+        match below.is_negative() {
             true => lowest(-above, -below),
             false => lowest(above, below),
-        };
-        Rational { above, below }
+        }
     }
 
     /// A whole number.
@@ -100,15 +96,8 @@ impl Rational {
             return None;
         }
         let (mantissa, exponent, sign) = FloatCore::integer_decode(x);
-        let mantissa = BigInt::from(mantissa) * sign;
-        let power = u64::from(exponent.unsigned_abs());
-        Some(match exponent < 0 {
-            true => {
-                let (above, below) = lowest(mantissa, BigInt::one() << power);
-                Rational { above, below }
-            }
-            false => Rational::from_integer(mantissa << power),
-        })
+        let whole = Rational::from_integer(BigInt::from(mantissa) * sign);
+        Some(whole.shifted(exponent.into()))
     }
 
     /// 0.
@@ -240,18 +229,15 @@ impl Rational {
 
     fn plus(&self, other: &Self) -> Self {
         if self.below == other.below {
-            let (above, below) = lowest(&self.above + &other.above, self.below.clone());
-            return Rational { above, below };
+            return lowest(&self.above + &other.above, self.below.clone());
         }
         let (own, others) = apart(self, other);
         let above = &self.above * &own + &other.above * others;
-        let (above, below) = lowest(above, &self.below * own);
-        Rational { above, below }
+        lowest(above, &self.below * own)
     }
 
     fn times(&self, other: &Self) -> Self {
-        let (above, below) = lowest(&self.above * &other.above, &self.below * &other.below);
-        Rational { above, below }
+        lowest(&self.above * &other.above, &self.below * &other.below)
     }
 
     fn over(&self, other: &Self) -> Self {

@@ -41,7 +41,7 @@ struct Molecule<'a> {
     name: String,
     atoms: Vec<(&'a str, [&'a str; 3], usize)>,
     bonds: Option<Vec<[usize; 2]>>,
-    /// What was taken of what the file has, in words.
+    /// See [`Imported::notes`].
     notes: Vec<String>,
 }
 
@@ -538,13 +538,8 @@ pub fn rewrite(places: &Places, bytes: &[u8], figure: &Figure) -> Result<Vec<u8>
                 pdb::with_place(old, place).ok_or_else(|| too_large(line, "PDB file"))?
             }
             _ if in_columns(old).is_some() => {
-                // Without a sign of zero.
-                let [x, y, z] =
-                    place.map(|x| format!("{:10.4}", x + 0.0).replace("-0.0000", " 0.0000"));
-                if [&x, &y, &z].iter().any(|text| text.len() > 10) {
-                    return Err(too_large(line, "molfile"));
-                }
-                format!("{x}{y}{z}{}", old.get(30..).unwrap_or(""))
+                let new = columns(place, 10, 4).ok_or_else(|| too_large(line, "molfile"))?;
+                new + old.get(30..).unwrap_or("")
             }
             _ => with_fields(old, 0, place, 4),
         };
@@ -555,6 +550,18 @@ pub fn rewrite(places: &Places, bytes: &[u8], figure: &Figure) -> Result<Vec<u8>
         true => text.chars().map(|c| c as u8).collect(),
         false => text.into_bytes(),
     })
+}
+
+/// Coordinates in columns of so many characters, with so many digits behind the point, or nothing where one has no room.
+fn columns(place: &[f64; 3], width: usize, digits: usize) -> Option<String> {
+    // Without a sign of zero.
+    let zero = format!("{:.digits$}", 0.0);
+    let text =
+        |x: f64| format!("{x:width$.digits$}").replace(&format!("-{zero}"), &format!(" {zero}"));
+    let all = place.map(text);
+    all.iter()
+        .all(|text| text.len() <= width)
+        .then(|| all.concat())
 }
 
 /// A line whose fields from the given one on are coordinates, with new ones: blanks and all other fields stay, but for

@@ -209,17 +209,8 @@ pub fn is_at(line: &str, place: &[f64; 3]) -> bool {
 
 /// A line with another place in the columns of an atom's coordinates, or nothing where it has no room for them.
 pub fn with_place(line: &str, place: &[f64; 3]) -> Option<String> {
-    // Without a sign of zero.
-    let new = place.map(|x| format!("{:8.3}", x + 0.0).replace("-0.000", " 0.000"));
-    let fits = new.iter().all(|text| text.len() <= 8);
-    fits.then(|| {
-        format!(
-            "{}{}{}",
-            line.get(..30).unwrap_or(line),
-            new.concat(),
-            line.get(54..).unwrap_or("")
-        )
-    })
+    let ends = [line.get(..30).unwrap_or(line), line.get(54..).unwrap_or("")];
+    super::columns(place, 8, 3).map(|new| ends.join(&new))
 }
 
 #[cfg(test)]
@@ -253,23 +244,22 @@ mod tests {
         read(text.as_bytes(), Format::Pdb, index)
     }
 
+    fn names(of: &Imported) -> Vec<&str> {
+        let points = of.problem.points.iter();
+        points.map(|point| point.name.as_str()).collect()
+    }
+
     #[test]
     fn chains_of_the_first_model_are_read() {
         let text = peptide();
         let listed = list("peptide.pdb", text.as_bytes()).unwrap();
-        let names: Vec<(&str, usize)> = listed
+        let chains: Vec<(&str, usize)> = listed
             .iter()
             .map(|one| (one.name.as_str(), one.drawn))
             .collect();
-        assert_eq!(names, [("A", 4), ("B", 2)]);
+        assert_eq!(chains, [("A", 4), ("B", 2)]);
         let found = chain(&text, 0).unwrap();
-        let names: Vec<&str> = found
-            .problem
-            .points
-            .iter()
-            .map(|p| p.name.as_str())
-            .collect();
-        assert_eq!(names, ["N1", "C2", "C3", "O4"]);
+        assert_eq!(names(&found), ["N1", "C2", "C3", "O4"]);
         let source = &found.problem.source;
         assert_eq!(
             found.notes,
@@ -327,13 +317,7 @@ mod tests {
             );
         }
         let found = chain(&text, 0).unwrap();
-        let names: Vec<&str> = found
-            .problem
-            .points
-            .iter()
-            .map(|p| p.name.as_str())
-            .collect();
-        assert_eq!(names, ["N1", "C2", "C3", "C4"]);
+        assert_eq!(names(&found), ["N1", "C2", "C3", "C4"]);
         assert!(found.notes[0].contains("SER 22"));
     }
 

@@ -45,9 +45,7 @@ pub enum FileFault {
     #[error("is not a text in UTF-8")]
     NotUtf8,
     /// It is a molecule of the Protein Data Bank.
-    #[error(
-        "has the records of a PDB file, a molecule's atoms: such files are read by the ending .pdb"
-    )]
+    #[error("has the records of a PDB file, a molecule's atoms: give it the ending .pdb")]
     Pdb,
     /// It is not TOML.
     #[error("{0}")]
