@@ -50,6 +50,13 @@ fn lowest(mut above: BigInt, mut below: BigInt) -> Rational {
     if above.is_zero() {
         return Rational::zero();
     }
+    if let (Some(size), Some(under)) = (above.magnitude().to_u64(), below.to_u64()) {
+        let common = size.gcd(&under);
+        return Rational {
+            above: BigInt::from(size / common) * above.signum(),
+            below: (under / common).into(),
+        };
+    }
     let both = twos(&above).min(twos(&below));
     if both > 0 {
         above >>= both;
@@ -160,7 +167,10 @@ impl Rational {
 
     /// One over it: it is not 0.
     pub fn recip(&self) -> Self {
-        Rational::one() / self
+        assert!(!self.is_zero(), "a division by zero");
+        let (below, sign) = (self.above.abs(), self.above.signum());
+        let above = &self.below * sign;
+        Rational { above, below }
     }
 
     /// A power of it, for a negative exponent of one over it.

@@ -113,14 +113,19 @@ impl<'a> Draft<'a> {
         self.drives.clear();
     }
 
-    /// The neighbours of a point that are placed, the least deep first.
+    /// The neighbours of a point that are placed.
+    fn placed_beside(&self, p: usize) -> impl Iterator<Item = usize> {
+        let beside = self.neighbours[p].iter().copied();
+        beside.filter(|&q| self.placed[q])
+    }
+
+    /// The same, the least deep first.
     fn standing(&self, p: usize) -> Vec<usize> {
-        let mut out: Vec<usize> = self.neighbours[p]
-            .iter()
-            .copied()
-            .filter(|&q| self.placed[q])
-            .collect();
-        out.order_by_key(|&q| (self.depth[q], q));
+        let mut out: Vec<usize> = Vec::with_capacity(self.neighbours[p].len());
+        for q in self.placed_beside(p) {
+            let before = |&other: &usize| (self.depth[other], other) < (self.depth[q], q);
+            out.insert(out.partition_point(before), q);
+        }
         out
     }
 
@@ -135,9 +140,8 @@ impl<'a> Draft<'a> {
         // What needs no parameter, that which closes most first.
         loop {
             let next = (0..self.targets.points)
-                .filter(|&p| !self.placed[p])
+                .filter(|&p| !self.placed[p] && self.placed_beside(p).count() >= d)
                 .map(|p| (self.standing(p), p))
-                .filter(|(standing, _)| standing.len() >= d)
                 .max_by_key(|(standing, p)| {
                     let deep: u32 = standing.iter().take(d).map(|&q| self.depth[q]).sum();
                     (standing.len(), std::cmp::Reverse((deep, *p)))
@@ -155,13 +159,12 @@ impl<'a> Draft<'a> {
             self.plans.push((self.promise(), plan));
         } else if left > 0 {
             for p in 0..self.targets.points {
-                if self.placed[p] {
+                let beside = self.placed_beside(p).count();
+                let lacking = beside + 1 == d || d == 3 && beside == 1 && left > 1;
+                if self.placed[p] || !lacking {
                     continue;
                 }
                 let standing = self.standing(p);
-                if standing.len() + 1 != d && !(d == 3 && standing.len() == 1 && left > 1) {
-                    continue;
-                }
                 let Some((kind, drives)) = self.driven(p, &standing) else {
                     continue;
                 };
