@@ -25,7 +25,7 @@ use std::time::{Duration, Instant};
 /// reflections where constraints do not say otherwise. "Complete" claims that these are all; "partial" and "flexible" say
 /// what is undecided.
 #[derive(clap::Args)]
-#[command(after_help = "\
+#[command(after_long_help = "\
 Examples:
   krawl all problems/disulfide.toml
   krawl all problems/disulfide.toml --html all.html --xyz all.xyz
@@ -38,20 +38,26 @@ Two machines share a search: one runs it with --store a --share 1/2, the other w
 Exit codes: 0 complete, 1 partial, flexible, not served yet or not decided which figures meet what was left out, 2 bad input, 3 or 4 the certificate
 does not prove what is said (see `krawl verify --help`).")]
 pub struct Arguments {
-    /// The problem file (TOML), a molecule (.xyz, .mol, .sdf, .pdb), or a system of PHCpack, msolve, Macaulay2 or HomotopyContinuation.jl
+    /// The problem file (TOML), a molecule or a system of equations
+    ///
+    /// Molecules: .xyz, .mol, .sdf, .pdb, .ent. Systems: of PHCpack, msolve, Macaulay2 or HomotopyContinuation.jl;
+    /// the text tells which.
     file: PathBuf,
     /// Which molecule of a file that holds several
     #[arg(long, value_name = "NAME")]
     sketch: Option<String>,
-    /// Write the results as JSON; `-` writes them to standard output in place of the table
+    /// Write the result as JSON; `-` is standard output
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
-    /// Write why there is no other solution, part by part of the space searched, and check that as `verify` does. Where it
-    /// does not pass, the exit code is that of `verify`; where it proves what the search left open, the set is complete
+    /// Write the proof as a certificate, and check it
+    ///
+    /// It says why there is no other solution, part by part of the space searched, and is checked as `verify` does.
+    /// Where it does not pass, the exit code is that of `verify`; where it proves what the search left open, the set
+    /// is complete
     #[arg(long, value_name = "FILE")]
     cert: Option<PathBuf>,
     /// Do not check the certificate that was written
-    #[arg(long, requires = "cert")]
+    #[arg(long, requires = "cert", hide_short_help = true)]
     no_verify: bool,
     /// Threads to use [default: one per processor]; the answer does not depend on it
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
@@ -59,19 +65,25 @@ pub struct Arguments {
     /// Stop after so many seconds, and say what is undecided
     #[arg(long, value_name = "S", value_parser = seconds)]
     time: Option<f64>,
-    /// Keep parts that are done in this folder, which is made where there is none: whenever the search is ended, the
-    /// same command goes on there
+    /// Keep what is done in this folder, and go on from there the next time
+    ///
+    /// The folder is made where there is none: whenever the search is ended, the same command goes on there
     #[arg(long, value_name = "DIR")]
     store: Option<PathBuf>,
     /// Search the K-th of N shares only, and leave the others to other machines
-    #[arg(long, value_name = "K/N", value_parser = share, requires = "store")]
+    #[arg(long, value_name = "K/N", value_parser = share, requires = "store", hide_short_help = true)]
     share: Option<[usize; 2]>,
-    /// Take over what another store of the same search has: its folder, or the file in it; may be given several times
-    #[arg(long, value_name = "PATH", requires = "store")]
+    /// Take over what another store of the same search has
+    ///
+    /// Its folder, or the file in it; may be given several times
+    #[arg(long, value_name = "PATH", requires = "store", hide_short_help = true)]
     merge: Vec<PathBuf>,
-    /// Of more distances than are needed those that were left out count as met where a figure misses them by no more than this, in the unit of
-    /// the file [default: half a unit of the last digit that the file gives a distance with]
-    #[arg(long, value_name = "X", value_parser = seconds)]
+    /// How far constraints left out of the search may be missed
+    ///
+    /// Of more distances than are needed those that were left out count as met where a figure misses them by no more
+    /// than this, in the unit of the file [default: half a unit of the last digit that the file gives a distance
+    /// with]
+    #[arg(long, value_name = "X", value_parser = seconds, hide_short_help = true)]
     redundant_tolerance: Option<f64>,
     #[command(flatten)]
     take: Take,

@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 
 /// Check a problem file and print what is in it
 #[derive(clap::Args)]
-#[command(after_help = "\
+#[command(after_long_help = "\
 Examples:
   krawl check sketch.toml
   krawl check sketch.toml --pattern
@@ -24,14 +24,18 @@ Examples:
 Exit codes: 0 in order, 2 not in order, with the line and what to do, 6 over-constrained: constraints that are one too
 many, each with the few that it follows from or contradicts.")]
 pub struct Arguments {
-    /// The problem file (TOML), `-` is standard input; or a file of SolveSpace (.slvs) or FreeCAD (.FCStd),
-    /// or a molecule (.xyz, .mol, .sdf, .pdb)
+    /// The problem file (TOML; `-` is standard input), a sketch or a molecule
+    ///
+    /// Sketches of SolveSpace (.slvs) and FreeCAD (.FCStd); molecules (.xyz, .mol, .sdf, .pdb, .ent)
     file: PathBuf,
-    /// Which sketch of a .slvs or .FCStd file; left out, all are listed where there are several
+    /// Which sketch of a file that holds several
+    ///
+    /// Left out, all are listed where there are several
     #[arg(long, value_name = "NAME")]
     sketch: Option<String>,
-    /// Show where the Jacobian has entries, ordered by the construction plan, however many
-    /// coordinates there are (otherwise up to 40)
+    /// Show where the Jacobian has entries, ordered by the construction plan
+    ///
+    /// However many coordinates there are (otherwise up to 40)
     #[arg(long)]
     pattern: bool,
 }

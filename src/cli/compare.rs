@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 
 /// Follow the path in every mode and space, several times each, and set them beside each other
 #[derive(clap::Args)]
-#[command(after_help = "\
+#[command(after_long_help = "\
 Examples:
   krawl compare problems/octahedron.toml
   krawl compare problems/*.toml --repeat 9 --csv out.csv
@@ -28,8 +28,9 @@ pub struct Arguments {
     /// Runs of each mode, taking turns; the median counts
     #[arg(long, value_name = "N", default_value = "5", value_parser = clap::value_parser!(u16).range(1..=9999))]
     repeat: u16,
-    /// Also with tube radii and tolerances of 1e-4 to 1e-14 and with bounds on the step, each
-    /// judged against the certified run
+    /// Also with other tube radii, tolerances and longest steps
+    ///
+    /// Tube radii and tolerances of 1e-4 to 1e-14 and bounds on the step, each judged against the certified run
     #[arg(long)]
     sweep: bool,
     /// Give up a run after so many seconds
@@ -38,7 +39,7 @@ pub struct Arguments {
     /// Write JSON, CSV and pictures (SVG) into this directory, which is created
     #[arg(long, value_name = "DIR")]
     output: Option<PathBuf>,
-    /// Write the results as JSON; `-` writes them to standard output in place of the tables
+    /// Write the result as JSON; `-` is standard output
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
     /// Write the results as CSV; `-` likewise

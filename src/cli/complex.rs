@@ -18,7 +18,7 @@ use std::time::{Duration, Instant};
 /// is claimed only where their number meets a proved bound, with figures that these dimensions send to infinity, which are proved and
 /// counted too. Without a template one is made first.
 #[derive(clap::Args)]
-#[command(after_help = "\
+#[command(after_long_help = "\
 Examples:
   krawl complex problems/octahedron.toml
   krawl complex problems/disulfide.toml --template problems/disulfide.krawl-template --json -
@@ -28,24 +28,30 @@ Examples:
 Exit codes: 0 complete, by a proved bound or one that you cite, 4 all paths were followed, and that there are no other solutions is
 not proved, 1 paths stopped, 2 bad input, or no certificate where one is asked for.")]
 pub struct Arguments {
-    /// The problem file (TOML), or a system of PHCpack, msolve, Macaulay2 or HomotopyContinuation.jl
+    /// The problem file (TOML) or a system of equations
+    ///
+    /// Systems of PHCpack, msolve, Macaulay2 or HomotopyContinuation.jl; the text tells which
     file: PathBuf,
     /// The solutions of a generic instance, by `krawl template`
     #[arg(long, value_name = "FILE")]
     template: Option<PathBuf>,
-    /// Write the results as JSON; `-` writes them to standard output in place of the table
+    /// Write the result as JSON; `-` is standard output
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
-    /// Write the solutions as a certificate, for `krawl verify`, and check it at once. That there are no others is in it for problems
-    /// of distances in space
+    /// Write the solutions as a certificate, and check it
+    ///
+    /// That there are no others is in it for problems of distances in space
     #[arg(long, value_name = "FILE")]
     cert: Option<PathBuf>,
-    /// A path is taken to go to infinity where an unknown is so many typical lengths (with --float: and the path cannot be
-    /// followed to its end)
+    /// Where a path is taken to go to infinity, in typical lengths
+    ///
+    /// An unknown is so many typical lengths in size (with --float: and the path cannot be followed to its end)
     #[arg(long, value_name = "R", default_value_t = 1000.0, value_parser = super::all::seconds)]
     radius: f64,
-    /// A bound on the number of solutions, up to rotation unless fixed places say where the figure is, that you know from
-    /// elsewhere: the result then says that it is complete if this bound holds. A smaller bound that is proved here is used in its place
+    /// A number of solutions that you know from elsewhere to be a bound
+    ///
+    /// Up to rotation unless fixed places say where the figure is: the result then says that it is complete if this
+    /// bound holds. A smaller bound that is proved here is used in its place
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     bound: Option<u64>,
     /// List all solutions, not the real ones only

@@ -25,7 +25,7 @@ use std::path::{Path, PathBuf};
 /// The figure is the sketch in FILE, which should meet its dimensions, at least nearly. Only the dimensions named
 /// move, in proportion; all others stay.
 #[derive(clap::Args)]
-#[command(after_help = "\
+#[command(after_long_help = "\
 Examples:
   krawl edit problems/mechanisms/four-bar.toml --set B-D=5.2
   krawl edit problems/mechanisms/four-bar.toml --set B-D=5.2 --out edited.toml
@@ -41,10 +41,12 @@ seem to meet; 1 stopped: nothing could be proved from some point on; 2 bad input
 pub struct Arguments {
     /// The problem file (TOML), or a sketch of SolveSpace (.slvs) or FreeCAD (.FCStd)
     file: PathBuf,
-    /// Which sketch of a .slvs or .FCStd file, where it holds several (`krawl check` lists them)
+    /// Which sketch of a file that holds several (`krawl check` lists them)
     #[arg(long, value_name = "NAME")]
     sketch: Option<String>,
-    /// A dimension and its new value, such as a-b=5.2, radii:hole=3 or c00f=45; more than one move together
+    /// A dimension and its new value: a-b=5.2, radii:hole=3, c00f=45
+    ///
+    /// Given several times, all move together
     #[arg(
         long,
         value_name = "NAME=VALUE",
@@ -52,33 +54,41 @@ pub struct Arguments {
         conflicts_with = "serve"
     )]
     set: Vec<String>,
-    /// A point and where it is wanted, such as P=40,25: all dimensions stay what they are, and the figure is led until the point is there, or as
-    /// near as it can; may be given for several points
+    /// A point and where it is wanted: P=40,25
+    ///
+    /// All dimensions stay what they are, and the figure is led until the point is there, or as near as it can; may
+    /// be given for several points
     #[arg(long, value_name = "P=X,Y", conflicts_with_all = ["serve", "set", "cert"], allow_hyphen_values = true)]
     drag: Vec<String>,
-    /// Read edits from standard input, one JSON object a line such as {"set": {"a-b": 5.2}}, and answer each with
-    /// one line of JSON; the figure never changes by an edit that is not reached (docs/edit.md)
+    /// Read edits from standard input, and answer each at once
+    ///
+    /// Edits are JSON objects, one a line, such as {"set": {"a-b": 5.2}}, and each is answered with one line of JSON;
+    /// the figure never changes by an edit that is not reached (docs/edit.md)
     #[arg(long, conflicts_with_all = ["out", "json", "time"])]
     serve: bool,
-    /// Write the edited problem, in the format and coordinates of FILE, if the new dimensions were reached
+    /// Write the edited figure into a file like FILE, if it was reached
+    ///
+    /// In the format and coordinates of FILE
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// Write the result as JSON; `-` writes it to standard output in place of the table
+    /// Write the result as JSON; `-` is standard output
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
-    /// Leave the proof as a certificate, and check it as `verify` does. Where it does not pass, the exit code is
-    /// that of `verify`. The figure is then followed as a whole, with what nothing determines held where it is
+    /// Write the proof as a certificate, and check it
+    ///
+    /// It is checked as `verify` does. Where it does not pass, the exit code is that of `verify`. The figure is then
+    /// followed as a whole, with what nothing determines held where it is
     #[arg(long, value_name = "FILE", conflicts_with = "serve")]
     cert: Option<PathBuf>,
     /// Do not check the certificate that was written
-    #[arg(long, requires = "cert")]
+    #[arg(long, requires = "cert", hide_short_help = true)]
     no_verify: bool,
     #[command(flatten)]
     measured: Measured,
     #[command(flatten)]
     pictures: Pictures,
     /// Keep to 53 bits, and stop where they do not suffice
-    #[arg(long)]
+    #[arg(long, hide_short_help = true)]
     no_extended: bool,
     #[command(flatten)]
     left_out: LeftOut,
@@ -92,9 +102,12 @@ pub struct Arguments {
 /// What counts as met of constraints that are left out.
 #[derive(clap::Args)]
 pub(super) struct LeftOut {
-    /// Where there are more constraints than unknowns, those that are left out count as met where the figure misses them by no more than
-    /// this, in the unit of their numbers [default: half a unit of the last digit that the file gives the number]
-    #[arg(long, value_name = "X", value_parser = super::all::seconds)]
+    /// How far constraints left out of the proof may be missed
+    ///
+    /// Where there are more constraints than unknowns, those that are left out count as met where the figure misses
+    /// them by no more than this, in the unit of their numbers [default: half a unit of the last digit that the file
+    /// gives the number]
+    #[arg(long, value_name = "X", value_parser = super::all::seconds, hide_short_help = true)]
     pub redundant_tolerance: Option<f64>,
 }
 

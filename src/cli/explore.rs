@@ -28,7 +28,7 @@ use std::time::Duration;
 /// same command goes on where the last run ended, however that was. That there are no other solutions is not
 /// claimed; `krawl all` proves that, where it can.
 #[derive(clap::Args)]
-#[command(after_help = "\
+#[command(after_long_help = "\
 Examples:
   krawl explore problems/disulfide.toml --store disulfide
   krawl explore problems/disulfide.toml --store disulfide --html rings.html  the figures, and their paths
@@ -51,7 +51,7 @@ pub struct Arguments {
     /// Which molecule of a file that holds several
     #[arg(long, value_name = "NAME")]
     sketch: Option<String>,
-    /// Stop after so many seconds; paths that are not done by then are followed by the next run
+    /// Stop after so many seconds; the next run follows what is left
     #[arg(long, value_name = "S", value_parser = super::all::seconds)]
     time: Option<f64>,
     /// Stop when this run has followed so many paths; 0 shows what the store has
@@ -60,29 +60,38 @@ pub struct Arguments {
     /// Paths to follow at the same time [default: one per processor]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     jobs: Option<u16>,
-    /// The end: so many ways (plan, length that bends, coefficient) in a row without a new solution
+    /// The end: so many ways in a row without a new solution
+    ///
+    /// A way is a plan, a length that bends and a coefficient
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u16).range(1..))]
     patience: u16,
     /// A path that takes more tubes is given up
     #[arg(long, value_name = "N", default_value_t = 100_000)]
     max_tubes: usize,
-    /// At the end put all sketches that wait into so many work units, files in the store's folder
+    /// At the end put what waits into so many work units
+    ///
+    /// They are files in the store's folder, each with sketches whose paths wait
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
     shard: Option<u32>,
     /// Follow sketches that are in work units here, too
     #[arg(long, conflicts_with = "shard")]
     take_back: bool,
-    /// Write into this folder, for each path that first found a solution, the problem with its sketch and its certificate
+    /// Write certificates of what was found into this folder
+    ///
+    /// For each path that first found a solution, the problem with its sketch and its certificate
     #[arg(long, value_name = "DIR")]
     proofs: Option<PathBuf>,
-    /// How long `krawl all` may look for all real solutions, to compare; 0 leaves it out
+    /// How long `krawl all` may look for all solutions, to compare
+    ///
+    /// 0 leaves it out
     #[arg(long, value_name = "S", default_value_t = 10.0, value_parser = seconds_or_none)]
     all_time: f64,
-    /// Write the results as JSON; `-` writes them to standard output in place of the table
+    /// Write the result as JSON; `-` is standard output
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
-    /// The number of figures along each path in the JSON and the page [default: as many as look smooth in the page, none in
-    /// the JSON]
+    /// The number of figures along each path in the JSON and the page
+    ///
+    /// [default: as many as look smooth in the page, none in the JSON]
     #[arg(long, value_name = "N", value_parser = super::solve::samples)]
     samples: Option<usize>,
     #[command(flatten)]

@@ -15,7 +15,7 @@ use std::path::PathBuf;
 /// which point is printed beside: on standard output, or where the system goes there, on standard error. Numbers are exact where they
 /// are ratios.
 #[derive(clap::Args)]
-#[command(after_help = "\
+#[command(after_long_help = "\
 Examples:
   krawl export problems/octahedron.toml --to phcpack --out octahedron.phc && phc -b octahedron.phc out
   krawl export problems/octahedron.toml --to msolve --out octahedron.ms && msolve -f octahedron.ms

@@ -8,7 +8,7 @@ use std::path::PathBuf;
 
 /// Make a large well-constrained problem with few key unknowns
 #[derive(clap::Args)]
-#[command(after_help = "\
+#[command(after_long_help = "\
 Examples:
   krawl generate tetrahedra --size 300 --out tetrahedra.toml
   krawl generate strip --size 100 --loops 2 --seed 7 | krawl solve -
@@ -18,10 +18,14 @@ pub struct Arguments {
     /// The family of problems
     #[arg(value_enum)]
     family: FamilyName,
-    /// The least number of free coordinates; the problem is the smallest of its family with as many
+    /// The least number of free coordinates
+    ///
+    /// The problem is the smallest of its family with as many
     #[arg(long, value_name = "N")]
     size: usize,
-    /// The number of loops, each of which costs one driving parameter and one key unknown
+    /// The number of loops
+    ///
+    /// Each costs one driving parameter and one key unknown
     #[arg(long, value_name = "K", default_value_t = 1)]
     loops: usize,
     /// The seed of the random places and lengths: equal seeds make equal problems

@@ -31,7 +31,9 @@ pub fn control<'a>() -> Control<'a> {
 /// How long a verb may take.
 #[derive(clap::Args)]
 pub struct Time {
-    /// End after so many seconds, as Ctrl-C does: what was found up to there is kept, and said to be no more than that
+    /// End after so many seconds, and keep what was found
+    ///
+    /// As Ctrl-C does: what was found up to there is kept, and said to be no more than that
     #[arg(long, value_name = "S", value_parser = super::all::seconds)]
     time: Option<f64>,
 }

@@ -9,11 +9,11 @@ use krawl::report::page::Page;
 use krawl::report::{ranges_to_table, ranges_to_value};
 use std::path::PathBuf;
 
-/// For every dimension, the values over which it can move alone, all others standing still, with proof
+/// For every dimension, how far it can go alone, all others standing still, with proof
 ///
 /// The figure is the sketch in FILE, which should meet its dimensions, at least nearly.
 #[derive(clap::Args)]
-#[command(after_help = "\
+#[command(after_long_help = "\
 Examples:
   krawl limits problems/mechanisms/four-bar.toml
   krawl limits docs/examples/plate.toml --html limits.html   the figures at the limits
@@ -23,13 +23,15 @@ be written.")]
 pub struct Arguments {
     /// The problem file (TOML), or a sketch of SolveSpace (.slvs) or FreeCAD (.FCStd)
     file: PathBuf,
-    /// Which sketch of a .slvs or .FCStd file, where it holds several
+    /// Which sketch of a file that holds several (`krawl check` lists them)
     #[arg(long, value_name = "NAME")]
     sketch: Option<String>,
-    /// Only this dimension, such as a-b, radii:hole or angles:a-b-c; may be given more than once
+    /// Only this dimension, such as a-b or radii:hole
+    ///
+    /// Or angles:a-b-c; may be given more than once
     #[arg(long, value_name = "NAME")]
     only: Vec<String>,
-    /// Write the result as JSON; `-` writes it to standard output in place of the table
+    /// Write the result as JSON; `-` is standard output
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
     #[command(flatten)]

@@ -12,9 +12,12 @@ pub(super) fn placed(solution: &Solution) -> Placed<'_> {
 /// What to measure.
 #[derive(clap::Args)]
 pub(super) struct Measured {
-    /// Measure this of every figure, as it is printed, with proof; may be given several times: `A-B`, `angle A B C`, `turn A B C` (with its sense, from
-    /// −180 to 180), `torsion A B C D`, `x A`, `area A B C ...` (of an outline that does not cross itself); of a joint
-    /// `turn J` and `travel J`, of a circle, sphere or arc `radius C`, of an unknown `value x` (these four not in `motion` and `tolerance`)
+    /// Measure this of every figure, with proof: 'angle A B C', A-B
+    ///
+    /// May be given several times: `A-B`, `angle A B C`, `turn A B C` (with its sense, from −180 to 180), `torsion A
+    /// B C D`, `x A`, `area A B C ...` (of an outline that does not cross itself); of a joint `turn J` and `travel
+    /// J`, of a circle, sphere or arc `radius C`, of an unknown `value x` (these four not in `motion` and
+    /// `tolerance`)
     #[arg(long = "measure", value_name = "WHAT")]
     measure: Vec<String>,
 }

@@ -10,7 +10,7 @@ use std::path::PathBuf;
 /// Every solution is proved again to exist before it counts, so that a wrong file cannot add one; how paths ended is
 /// taken from the files. The same results may be merged twice, and those of a unit that is not done yet, too.
 #[derive(clap::Args)]
-#[command(after_help = "\
+#[command(after_long_help = "\
 Examples:
   krawl merge store store/*.krawl-result
   krawl explore problem.toml --store store      goes on from there

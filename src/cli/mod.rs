@@ -29,7 +29,7 @@ mod tolerance;
 mod verify;
 mod work;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use std::process::ExitCode;
 
 /// Exit code of a run that closed, of a check that found nothing wrong, and of a certificate that
@@ -54,13 +54,27 @@ pub const OVER: u8 = 6;
 /// Exit code of an edit that comes to where branches of figures seem to meet.
 pub const PASSES: u8 = 4;
 
-/// Finds figures that meet given dimensions, with proof, from a rough sketch: it leads the sketch's
-/// dimensions to the wanted ones and follows the figure as it moves.
+/// What the command line is read into.
 #[derive(Parser)]
 #[command(
     name = "krawl",
     version,
+    about = "\
+Finds figures that meet given dimensions, with proof: it leads the dimensions of a rough sketch to the wanted ones
+and follows the figure as it moves. Reads its own files (TOML), sketches of FreeCAD and SolveSpace, and molecules.",
     after_help = "\
+Examples:
+  krawl check sketch.toml                   is the input in order, and what was understood?
+  krawl solve sketch.toml                   the figures that meet the dimensions
+  krawl solve sketch.toml --html page.html  a page to look at
+  krawl edit sketch.toml --set a-b=5.2      change a dimension without a flip
+  krawl motion sketch.toml --free a-c       a linkage all the way round, past every dead centre
+  krawl tolerance sketch.toml --default 0.01  every dimension within its limits
+  krawl all sketch.toml                     every figure that there is
+  krawl solve sketch.toml --cert proof.krawl && krawl verify proof.krawl
+
+`krawl VERB -h` has a verb's options on one screen, `krawl VERB --help` all there is to say of them.",
+    after_long_help = "\
 Examples:
   krawl check sketch.toml                   is the input in order, and what was understood?
   krawl solve sketch.toml                   the figures that meet the dimensions
@@ -73,12 +87,13 @@ Examples:
   krawl explore sketch.toml --store DIR     more real ones, from new sketches
   krawl solve sketch.toml --cert proof.krawl && krawl verify proof.krawl
 
-`krawl VERB --help` has more of each verb. The README has the format of problem files.
+`krawl VERB -h` has a verb's options on one screen, `krawl VERB --help` all there is to say of them. The
+format of problem files is in docs/using/problem-files.md.
 
 Exit codes: 0 closed, complete, verified or reached, 1 stopped or refuted, 2 bad input or results that
 could not be written, 3 an edit's limit or a certificate not proved, 4 where an edit's branches meet or
-an incomplete certificate, or complex solutions that are not proved to be all, or sketches left to explore, 5 open: a path that came to an end both ways, proved between,
-6 constraints that are one too many (check)."
+an incomplete certificate, or complex solutions that are not proved to be all, or sketches left to explore,
+5 open: a path that came to an end both ways, proved between, 6 constraints that are one too many (check)."
 )]
 struct Arguments {
     #[command(subcommand)]
@@ -109,13 +124,68 @@ enum Verb {
     Man(shell::Man),
 }
 
+/// The verbs by what people want.
+const WANTED: [(&str, &[&str]); 4] = [
+    (
+        "Change a figure, or see how it can move",
+        &["edit", "limits", "sweep", "motion", "tolerance"],
+    ),
+    (
+        "Find figures",
+        &[
+            "solve", "all", "complex", "template", "explore", "work", "merge",
+        ],
+    ),
+    (
+        "Look, check, pass on",
+        &["check", "show", "verify", "export"],
+    ),
+    (
+        "Experiments and shells",
+        &["compare", "generate", "completions", "man", "help"],
+    ),
+];
+
+/// The command line, with its verbs by what people want.
+fn command() -> clap::Command {
+    let mut command = Arguments::command();
+    command.build();
+    let mut verbs = String::new();
+    for (what, names) in WANTED {
+        verbs.push_str(&format!("{what}:\n"));
+        for name in names {
+            let verb = command.find_subcommand(name);
+            let about = verb.and_then(|verb| verb.get_about());
+            let about = about.map(ToString::to_string).unwrap_or_default();
+            verbs.push_str(&format!("  {name:<12} {about}\n"));
+        }
+        verbs.push('\n');
+    }
+    Arguments::command().help_template(format!(
+        "{{about}}\n\n{{usage-heading}} {{usage}}\n\n{verbs}Options:\n{{options}}{{after-help}}"
+    ))
+}
+
+/// What the command line says; usage errors and help end the program.
+fn parse() -> Arguments {
+    let first = std::env::args_os().nth(1);
+    let is_verb =
+        |first: &std::ffi::OsString| *first != "help" && !first.to_string_lossy().starts_with('-');
+    // Only a help with the list of verbs needs the list, which takes as long to make as the rest of reading.
+    if first.as_ref().is_some_and(is_verb) {
+        return Arguments::parse();
+    }
+    let told = Arguments::from_arg_matches(&command().get_matches());
+    told.unwrap_or_else(|error| error.exit())
+}
+
 /// Runs the program. The exit code is its result.
 pub fn run() -> ExitCode {
     if let Err(message) = processor::check() {
         output::complain(&message);
         return ExitCode::from(BAD_INPUT);
     }
-    let code = match Arguments::parse().verb {
+    let code = match parse().verb {
         Verb::All(arguments) => all::run(&arguments),
         Verb::Check(arguments) => check::run(&arguments),
         Verb::Compare(arguments) => compare::run(&arguments),
@@ -147,4 +217,26 @@ fn in_pool<T: Send>(threads: Option<u16>, work: impl FnOnce() -> T + Send) -> Re
         .build()
         .map_err(|error| format!("threads cannot be started: {error}"))?;
     Ok(pool.install(work))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_verb_stands_where_people_look_for_it() {
+        let mut command = Arguments::command();
+        command.build();
+        let mut listed: Vec<&str> = WANTED
+            .iter()
+            .flat_map(|(_, names)| names.iter().copied())
+            .collect();
+        let mut verbs: Vec<&str> = command
+            .get_subcommands()
+            .map(|verb| verb.get_name())
+            .collect();
+        listed.sort_unstable();
+        verbs.sort_unstable();
+        assert_eq!(listed, verbs);
+    }
 }

@@ -11,13 +11,13 @@ use krawl::report::{motion_in_words, motion_to_csv, motion_to_table, motion_to_v
 use krawl::track::Options;
 use std::path::PathBuf;
 
-/// Follow a linkage all the way round, with proof: between which bounds its lengths and angles stay, and where
+/// Follow a linkage all the way round, with proof: between which bounds lengths and angles stay
 ///
 /// The figure in FILE has one degree of freedom, or has one once --free leaves a dimension out. All figures that it can move through are
 /// followed, until it comes back or to its two ends, past every dead centre. Each step is proved, so nothing between is missed, and no
 /// branch is taken for another.
 #[derive(clap::Args)]
-#[command(after_help = "\
+#[command(after_long_help = "\
 Examples:
   krawl motion problems/mechanisms/crank.toml --free turns:D-A-B
   krawl motion problems/mechanisms/crank.toml --free turns:D-A-B --measure \"angle A D C\" --measure \"turn D A B\"
@@ -29,16 +29,20 @@ Exit codes: 0 it comes back, 5 it has two ends, 1 it could not be followed to an
 pub struct Arguments {
     /// The problem file (TOML), or a sketch of SolveSpace (.slvs) or FreeCAD (.FCStd)
     file: PathBuf,
-    /// Which sketch of a .slvs or .FCStd file, where it holds several
+    /// Which sketch of a file that holds several (`krawl check` lists them)
     #[arg(long, value_name = "NAME")]
     sketch: Option<String>,
-    /// Leave this dimension out, such as a-b or angles:a-b-c, so that the figure can move; may be given more than once
+    /// Leave this dimension out, so that the figure can move
+    ///
+    /// Such as a-b or angles:a-b-c; may be given more than once
     #[arg(long, value_name = "NAME")]
     free: Vec<String>,
-    /// Write the result as JSON; `-` writes it to standard output in place of the table
+    /// Write the result as JSON; `-` is standard output
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
-    /// Write frames as CSV, at equal steps of the way: how far it is, the coordinates of all points, what is measured; `-` likewise
+    /// Write frames as CSV, at equal steps of the way
+    ///
+    /// How far it is, the coordinates of all points, what is measured; `-` is standard output
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
     #[command(flatten)]

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 
 /// Print the completions for a shell
 #[derive(clap::Args)]
-#[command(after_help = "\
+#[command(after_long_help = "\
 Examples:
   krawl completions bash > ~/.local/share/bash-completion/completions/krawl
   krawl completions zsh > ~/.zfunc/_krawl
@@ -22,7 +22,7 @@ pub struct Completions {
 
 /// Print the manual page, or write one for each verb
 #[derive(clap::Args)]
-#[command(after_help = "\
+#[command(after_long_help = "\
 Examples:
   krawl man | man -l -
   krawl man --dir ~/.local/share/man/man1

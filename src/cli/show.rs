@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 ///
 /// Without any option the page goes beside the result, as RESULT.html.
 #[derive(clap::Args)]
-#[command(after_help = "\
+#[command(after_long_help = "\
 Examples:
   krawl solve sketch.toml --json out.json --samples 1000
   krawl show out.json                        writes out.html, to be opened in a browser

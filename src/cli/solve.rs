@@ -40,7 +40,7 @@ use std::time::{Duration, Instant};
 /// congruent: the same figure, or its mirror image. `reached without a fold` marks the one to which the
 /// sketch moves without turning back when its dimensions are led to their targets.
 #[derive(clap::Args)]
-#[command(after_help = "\
+#[command(after_long_help = "\
 Examples:
   krawl solve sketch.toml                      the solutions, with proof
   krawl solve sketch.toml --html page.html     a page to look at
@@ -59,66 +59,79 @@ Exit codes: 0 all paths closed, 1 a run stopped (its result says where and why, 
 found), 2 bad input or results that could not be written, 5 open: a path came to an end both ways, and all between is
 proved (with --mode float: observed).")]
 pub struct Arguments {
-    /// The problem files (TOML), `-` is standard input; or sketches (.slvs, .FCStd) and molecules (.xyz, .mol, .sdf, .pdb)
+    /// Problem files (TOML; `-` is standard input), sketches or molecules
+    ///
+    /// Sketches of SolveSpace (.slvs) and FreeCAD (.FCStd); molecules (.xyz, .mol, .sdf, .pdb, .ent)
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
-    /// Which sketch or molecule of a file that holds several (`krawl check` lists them)
+    /// Which sketch or molecule of a file (`krawl check` lists them)
     #[arg(long, value_name = "NAME")]
     sketch: Option<String>,
-    /// Only the solution to which the sketch moves without a fold; exit code 0 if there is one, 3 if the path turns
-    /// back before, 1 if that could not be proved, as in float mode. Of a sketch of another program: the figure nearest to it in which
-    /// angles, parallels, tangents and joined points turn as there; 3 if no figure found is such
+    /// Only the solution to which the sketch moves without a fold
+    ///
+    /// Exit code 0 if there is one, 3 if the path turns back before, 1 if that could not be proved, as in float mode.
+    /// Of a sketch of another program: the figure nearest to it in which angles, parallels, tangents and joined
+    /// points turn as there; 3 if no figure found is such
     #[arg(long, conflicts_with_all = ["all", "summary", "cert", "reverse"])]
     first: bool,
-    /// Prove every step, or track in floating-point arithmetic
-    #[arg(long, value_enum, default_value_t = Mode::Certified)]
+    /// `certified` proves every step, `float` tracks in plain floats
+    #[arg(long, value_enum, hide_possible_values = true, default_value_t = Mode::Certified)]
     mode: Mode,
-    /// Track in all free coordinates, or in the driving parameters of a construction plan
+    /// All free coordinates, or the driving parameters of a plan
+    ///
     /// [default: reduced for float, and for certified from 70 free coordinates on; otherwise full]
-    #[arg(long, value_enum)]
+    #[arg(long, value_enum, hide_short_help = true)]
     space: Option<Space>,
-    /// Float mode: steps by rules of our own, or by those of the paper (RR 8705, 7.1 to 7.3)
-    #[arg(long, help_heading = "For experiments", value_enum, default_value_t = Preset::Default)]
+    /// Float mode: steps by rules of our own, or of RR 8705, 7.1 to 7.3
+    #[arg(long, help_heading = "For experiments", value_enum, default_value_t = Preset::Default, hide_short_help = true)]
     preset: Preset,
-    /// Distance to a boundary configuration at which the plan is changed, between 0 and 0.5
-    #[arg(long, help_heading = "For experiments", value_name = "X", default_value = "0.1", value_parser = alpha)]
+    /// How near a boundary configuration the plan is changed, up to 0.5
+    #[arg(long, help_heading = "For experiments", value_name = "X", default_value = "0.1", value_parser = alpha, hide_short_help = true)]
     alpha: f64,
     /// No step is longer than this, along the path
-    #[arg(long, help_heading = "For experiments", value_name = "X", value_parser = positive)]
+    #[arg(long, help_heading = "For experiments", value_name = "X", value_parser = positive, hide_short_help = true)]
     max_step: Option<f64>,
-    /// Certified mode: how far the path may be from the middle of a tube. Extended precision is never
-    /// switched on for the sake of a small radius alone
-    #[arg(long, help_heading = "For experiments", value_name = "X", value_parser = positive)]
+    /// Certified mode: the radius of tubes
+    ///
+    /// How far the path may be from the middle of a tube. Extended precision is never switched on for the sake of a
+    /// small radius alone
+    #[arg(long, help_heading = "For experiments", value_name = "X", value_parser = positive, hide_short_help = true)]
     tube_radius: Option<f64>,
-    /// Certified mode: keep to 53 bits, and stop where they do not suffice, instead of switching extended
-    /// precision on there (which only the full space has)
-    #[arg(long, help_heading = "For experiments")]
+    /// Certified mode: keep to 53 bits, and stop where they do not suffice
+    ///
+    /// Otherwise extended precision is switched on there (which only the full space has)
+    #[arg(long, help_heading = "For experiments", hide_short_help = true)]
     no_extended: bool,
     /// Float mode: points are corrected until a correction is about this small
-    #[arg(long, help_heading = "For experiments", value_name = "X", value_parser = positive)]
+    #[arg(long, help_heading = "For experiments", value_name = "X", value_parser = positive, hide_short_help = true)]
     tolerance: Option<f64>,
     /// Follow the loop the other way round
-    #[arg(long)]
+    #[arg(long, hide_short_help = true)]
     reverse: bool,
-    /// Threads for one run in certified mode; 0 is one for each processor. With two or more a path of distances alone is
-    /// followed both ways from the sketch at once, until these meet; with 127 free coordinates and more in the full space
-    /// products of matrices take several too. What is proved is the same, bounds may differ in their last digits. Runs with
-    /// --cert, --json or a picture go one way, as what they keep is in the order of the path
+    /// Threads for one run in certified mode; 0 is one for each processor
+    ///
+    /// With two or more a path of distances alone is followed both ways from the sketch at once, until these meet;
+    /// with 127 free coordinates and more in the full space products of matrices take several too. What is proved is
+    /// the same, bounds may differ in their last digits. Runs with --cert, --json or a picture go one way, as what
+    /// they keep is in the order of the path
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(0..=1024))]
     threads: u16,
-    /// Write a certificate, and check it as `verify` does; only for runs in certified mode. Where a
-    /// certificate of a closed run does not pass, the exit code is that of `verify`
+    /// Write the proof as a certificate, and check it
+    ///
+    /// It is checked as `verify` does; only for runs in certified mode. Where a certificate of a closed run does not
+    /// pass, the exit code is that of `verify`
     #[arg(long, value_name = "FILE")]
     cert: Option<PathBuf>,
     /// Do not check the certificate that was written
-    #[arg(long, requires = "cert")]
+    #[arg(long, requires = "cert", hide_short_help = true)]
     no_verify: bool,
-    /// Write the results as JSON, one line for each problem; `-` writes them to standard output in place
-    /// of the table
+    /// Write the result as JSON; `-` is standard output
+    ///
+    /// One line for each problem
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
     /// Certified mode: the number of figures along the path in the JSON and the page
-    #[arg(long, value_name = "N", value_parser = samples)]
+    #[arg(long, value_name = "N", value_parser = samples, hide_short_help = true)]
     samples: Option<usize>,
     #[command(flatten)]
     take: Take,
@@ -132,9 +145,11 @@ pub struct Arguments {
     /// Print all solutions, however many lines they take
     #[arg(long, conflicts_with = "summary")]
     all: bool,
-    /// Do not say how many of all figures the path has. That is looked for, with proof, where it takes but some
-    /// milliseconds: of distances alone, up to 10 points, with a construction plan of one driving parameter
-    #[arg(long)]
+    /// Do not say how many of all figures the path has
+    ///
+    /// That is looked for, with proof, where it takes but some milliseconds: of distances alone, up to 10 points,
+    /// with a construction plan of one driving parameter
+    #[arg(long, hide_short_help = true)]
     no_count: bool,
     #[command(flatten)]
     left_out: LeftOut,

@@ -22,7 +22,7 @@ use std::path::PathBuf;
 /// The figure in FILE is led to the first value, and from there to the last one. Every frame is proved to be the one and
 /// only continuation of the one before. Where the mechanism comes to a limit the sweep ends, and the limit is enclosed.
 #[derive(clap::Args)]
-#[command(after_help = "\
+#[command(after_long_help = "\
 Examples:
   krawl sweep problems/mechanisms/jansen.toml --vary M-F --from 24 --to 53 --frames 100 --csv leg.csv
   krawl sweep problems/mechanisms/jansen.toml --vary M-F --from 24 --to 53 --html leg.html
@@ -34,7 +34,7 @@ Exit codes: 0 all frames were reached; 3 limit, 4 branches meet, 1 stopped: the 
 pub struct Arguments {
     /// The problem file (TOML), or a sketch of SolveSpace (.slvs) or FreeCAD (.FCStd)
     pub(super) file: PathBuf,
-    /// Which sketch of a .slvs or .FCStd file, where it holds several
+    /// Which sketch of a file that holds several (`krawl check` lists them)
     #[arg(long, value_name = "NAME")]
     pub(super) sketch: Option<String>,
     /// The dimension that is driven, such as a-b, radii:hole or angles:a-b-c
@@ -56,27 +56,35 @@ pub struct Arguments {
         required_unless_present = "table"
     )]
     to: Option<String>,
-    /// Drive several dimensions together, from row to row of a table: CSV, the first line their names, each other one their values
+    /// Drive several dimensions together, from row to row of a table
+    ///
+    /// CSV, the first line their names, each other one their values
     #[arg(long, value_name = "FILE", conflicts_with_all = ["vary", "from", "to", "frames", "json", "cert", "html", "svg", "animation", "obj", "xyz"])]
     table: Option<PathBuf>,
-    /// With --table: write the figure of each row into the file that it is of, as FILE-1, FILE-2, ... in this folder
+    /// With --table: write the figure of each row into this folder
+    ///
+    /// Into the file that it is of, as FILE-1, FILE-2, ...
     #[arg(long, value_name = "DIR", requires = "table")]
     pub(super) out_folder: Option<PathBuf>,
     /// The number of frames, at equal distances, both ends among them
     #[arg(long, value_name = "N", default_value_t = 100, value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
     frames: u32,
-    /// Write the frames as JSON; `-` writes them to standard output in place of the summary
+    /// Write the frames as JSON; `-` is standard output
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
-    /// Write the frames as CSV: the value, then the coordinates of all points; `-` likewise
+    /// Write the frames as CSV; `-` is standard output
+    ///
+    /// The value, then the coordinates of all points
     #[arg(long, value_name = "FILE")]
     pub(super) csv: Option<PathBuf>,
-    /// Leave the proof as a certificate, and check it as `verify` does. Where it does not pass, the exit code is
-    /// that of `verify`. The figure is then followed as a whole, with what nothing determines held where it is
+    /// Write the proof as a certificate, and check it
+    ///
+    /// It is checked as `verify` does. Where it does not pass, the exit code is that of `verify`. The figure is then
+    /// followed as a whole, with what nothing determines held where it is
     #[arg(long, value_name = "FILE")]
     cert: Option<PathBuf>,
     /// Do not check the certificate that was written
-    #[arg(long, requires = "cert")]
+    #[arg(long, requires = "cert", hide_short_help = true)]
     no_verify: bool,
     #[command(flatten)]
     pub(super) measured: Measured,

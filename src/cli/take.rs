@@ -13,15 +13,19 @@ use std::path::{Path, PathBuf};
 /// Which figure is taken, and where it goes.
 #[derive(clap::Args)]
 pub(super) struct Take {
-    /// Take a figure: write FILE as the input was, with the places of points and the radii of the figure. Where there are several, --pick or
-    /// --nearest says which (with `solve` --first, too)
+    /// Take a figure: write it into a file like FILE
+    ///
+    /// With the places of points and the radii of the figure. Where there are several, --pick or --nearest says which
+    /// (with `solve` --first, too)
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
     /// Take the K-th of the solutions listed
     #[arg(long, value_name = "K", requires = "out", value_parser = clap::value_parser!(u64).range(1..))]
     pick: Option<u64>,
-    /// Take the solution nearest to the sketch: with the least sum of the squares of how far its points are from there. (Of figures that
-    /// `all` lists up to mirror images, the one of both that is nearer is meant, by --pick too)
+    /// Take the solution nearest to the sketch
+    ///
+    /// With the least sum of the squares of how far its points are from there. (Of figures that `all` lists up to
+    /// mirror images, the one of both that is nearer is meant, by --pick too)
     #[arg(long, requires = "out", conflicts_with = "pick")]
     nearest: bool,
 }

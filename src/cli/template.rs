@@ -16,7 +16,7 @@ use std::time::{Duration, Instant};
 /// figures with the same dimensions of it, every path proved (unless --float), until there are as many as a proved
 /// bound allows or no loop finds another one. `krawl complex FILE --template T` then takes them to any dimensions.
 #[derive(clap::Args)]
-#[command(after_help = "\
+#[command(after_long_help = "\
 Examples:
   krawl template problems/octahedron.toml --out octahedron.krawl-template
   krawl complex problems/octahedron.toml --template octahedron.krawl-template
@@ -44,15 +44,20 @@ pub struct Search {
     /// The seed of the random numbers: equal seeds make equal runs
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
-    /// Stop after so many ways in a row that find nothing new [default: 10; 50 for equations of one's own while there are fewer solutions than
-    /// the product of their degrees]
+    /// Stop after so many ways in a row that find nothing new
+    ///
+    /// [default: 10; 50 for equations of one's own while there are fewer solutions than the product of their degrees]
     #[arg(long, value_name = "N")]
     patience: Option<usize>,
-    /// Stop when there are so many, up to signs of axes: a number that you know from elsewhere, nothing is proved by it
+    /// Stop when there are so many, up to signs of axes
+    ///
+    /// A number that you know from elsewhere; nothing is proved by it
     #[arg(long, value_name = "N")]
     enough: Option<usize>,
-    /// Follow paths in floats, many times as fast and without proof of the steps; every solution that they come to is
-    /// still proved, and so is "complete" or "full", which rests on their number alone
+    /// Follow paths in floats, many times as fast
+    ///
+    /// Without proof of the steps; every solution that they come to is still proved, and so is "complete" or "full",
+    /// which rests on their number alone
     #[arg(long)]
     pub float: bool,
     /// Stop looking after so many seconds

@@ -10,12 +10,12 @@ use krawl::tolerance::{limits, study};
 use krawl::track::Options;
 use std::path::PathBuf;
 
-/// Every dimension within its limits: between which bounds lengths, angles and areas of the figure then are, with proof
+/// Every dimension within its limits: between which bounds lengths, angles and areas then are, with proof
 ///
 /// For all choices of all dimensions together there is exactly one figure that the one in FILE becomes, and what is measured stays within the
 /// worst case that is printed; so much of it is due to each dimension. Limits are in FILE under [tolerances], or given here.
 #[derive(clap::Args)]
-#[command(after_help = "\
+#[command(after_long_help = "\
 Examples:
   krawl tolerance docs/examples/plate.toml --default 0.1
   krawl tolerance docs/examples/plate.toml --default 0.1 --tolerance C-D=-0.2,0.5 --measure D-A --measure \"angle B C D\"
@@ -26,16 +26,20 @@ written.")]
 pub struct Arguments {
     /// The problem file (TOML), or a sketch of SolveSpace (.slvs) or FreeCAD (.FCStd)
     file: PathBuf,
-    /// Which sketch of a .slvs or .FCStd file, where it holds several
+    /// Which sketch of a file that holds several (`krawl check` lists them)
     #[arg(long, value_name = "NAME")]
     sketch: Option<String>,
-    /// The tolerance of all lengths and radii that have none of their own: 0.1, or so far down and up, -0.2,0.1
+    /// The tolerance of all lengths and radii that have none of their own
+    ///
+    /// 0.1, or so far down and up, -0.2,0.1
     #[arg(long, value_name = "VALUE", allow_hyphen_values = true)]
     default: Option<String>,
-    /// The tolerance of one dimension, a-b=0.1 or a-b=-0.2,0.1; may be given more than once
+    /// The tolerance of one dimension, a-b=0.1 or a-b=-0.2,0.1
+    ///
+    /// May be given more than once
     #[arg(long, value_name = "NAME=VALUE")]
     tolerance: Vec<String>,
-    /// Write the result as JSON; `-` writes it to standard output in place of the table
+    /// Write the result as JSON; `-` is standard output
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
     #[command(flatten)]

@@ -15,7 +15,7 @@ use std::time::{Duration, Instant};
 
 /// Prove all claims of a certificate again
 #[derive(clap::Args, Clone)]
-#[command(after_help = "\
+#[command(after_long_help = "\
 Examples:
   krawl verify proof.krawl
   krawl verify proof.krawl sketch.toml    and it is about this problem
@@ -24,18 +24,20 @@ Exit codes: 0 verified; 1 refuted, a claim in it is false or it is about another
 certificate; 3 not proved, a claim may be true but the checker's test is too coarse for it; 4 incomplete, the
 proof of a run that stopped, true as far as it goes.")]
 pub struct Arguments {
-    /// The certificate, as `--cert` of `solve`, `edit`, `sweep`, `all` or `complex` writes it
+    /// The certificate, as `--cert` of a verb writes it
     cert: PathBuf,
     /// The problem that the certificate has to be about: a problem file (TOML), or a sketch of SolveSpace (.slvs) or
     /// FreeCAD (.FCStd)
     file: Option<PathBuf>,
-    /// Which sketch of a .slvs or .FCStd file, where it holds several
+    /// Which sketch of a file that holds several (`krawl check` lists them)
     #[arg(long, value_name = "NAME", requires = "file")]
     sketch: Option<String>,
     /// Threads to use [default: one per processor]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
-    /// Give up after so many seconds: then nothing is said of the certificate but that it was not checked to its end (exit code 3)
+    /// Give up after so many seconds
+    ///
+    /// Then nothing is said of the certificate but that it was not checked to its end (exit code 3)
     #[arg(long, value_name = "S", value_parser = super::all::seconds)]
     time: Option<f64>,
     /// Print nothing: the exit code tells

@@ -13,7 +13,7 @@ use std::time::{Duration, Instant};
 /// What comes of each is written as soon as it is done. The same command goes on where the last one ended, however
 /// that was.
 #[derive(clap::Args)]
-#[command(after_help = "\
+#[command(after_long_help = "\
 Examples:
   krawl work store/unit-0.krawl-unit
   krawl work unit-$SLURM_ARRAY_TASK_ID.krawl-unit --jobs 4 --time 3500
@@ -23,7 +23,9 @@ process writes to the same results.")]
 pub struct Arguments {
     /// The work unit
     unit: PathBuf,
-    /// Write the results to this file [default: beside the unit, ending in .krawl-result]
+    /// Write the results to this file
+    ///
+    /// [default: beside the unit, ending in .krawl-result]
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
     /// Paths to follow at the same time [default: one per processor]

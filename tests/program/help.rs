@@ -33,10 +33,11 @@ fn help(verb: &str) -> String {
     String::from_utf8(output.stdout).unwrap()
 }
 
+/// All verbs, which stand by what people want before the options.
 fn verbs() -> Vec<String> {
     let text = help("");
-    let list = text.lines().skip_while(|line| *line != "Commands:").skip(1);
-    list.take_while(|line| line.starts_with("  "))
+    let list = text.lines().take_while(|line| *line != "Options:");
+    list.filter_map(|line| line.strip_prefix("  "))
         .filter_map(|line| line.split_whitespace().next())
         .filter(|verb| *verb != "help")
         .map(str::to_owned)
@@ -64,6 +65,22 @@ fn copy(from: &Path, to: &Path) {
                 fs::copy(entry.path(), target).unwrap();
             }
         }
+    }
+}
+
+/// A terminal has 40 lines of 100 letters, or so.
+#[test]
+fn the_short_help_of_every_verb_fits_on_one_screen() {
+    for verb in verbs().iter().map(String::as_str).chain([""]) {
+        let words = [verb, "-h"].into_iter().filter(|word| !word.is_empty());
+        let output = Command::new(env!("CARGO_BIN_EXE_krawl"))
+            .args(words)
+            .output()
+            .unwrap();
+        let text = String::from_utf8(output.stdout).unwrap();
+        let wide = text.lines().find(|line| line.chars().count() > 120);
+        assert_eq!(wide, None, "{verb}");
+        assert!(text.lines().count() <= 42, "{verb}:\n{text}");
     }
 }
 
