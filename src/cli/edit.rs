@@ -63,7 +63,7 @@ pub struct Arguments {
     /// Read edits from standard input, and answer each at once
     ///
     /// Edits are JSON objects, one a line, such as {"set": {"a-b": 5.2}}, and each is answered with one line of JSON;
-    /// the figure never changes by an edit that is not reached (docs/edit.md)
+    /// the figure never changes by an edit that is not reached (docs/using/programs.md)
     #[arg(long, conflicts_with_all = ["out", "json", "time"])]
     serve: bool,
     /// Write the edited figure into a file like FILE, if it was reached

@@ -21,7 +21,7 @@ Examples:
 
 Exit codes: 0 written, 2 not a result, or it could not be written.")]
 pub struct Arguments {
-    /// The result (JSON, docs/json.md); `-` is standard input
+    /// The result (JSON, docs/using/programs.md); `-` is standard input
     result: PathBuf,
     #[command(flatten)]
     pictures: Pictures,

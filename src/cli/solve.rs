@@ -44,7 +44,7 @@ use std::time::{Duration, Instant};
 Examples:
   krawl solve sketch.toml                      the solutions, with proof
   krawl solve sketch.toml --html page.html     a page to look at
-  krawl solve sketch.toml --json out.json      for programs (docs/json.md); `krawl show` draws it
+  krawl solve sketch.toml --json out.json      for programs (docs/using/programs.md); `krawl show` draws it
   krawl solve a.toml b.toml c.toml --summary   one line for each
   krawl generate strip --size 100 | krawl solve -
   krawl solve sketch.toml --cert proof.krawl   leave the proof; `krawl verify` checks it
@@ -52,7 +52,7 @@ Examples:
 
 A sketch of FreeCAD or SolveSpace is solved block by block, each where the blocks that it needs are; so is a problem in
 its own frame that stops as a whole or has not as many equations as unknowns, and one of distances that falls apart
-(docs/sketches.md). A sketch is followed as a whole where a path is asked for: --cert, --animation, --samples, --space,
+(docs/using/cad.md). A sketch is followed as a whole where a path is asked for: --cert, --animation, --samples, --space,
 --reverse, --mode float.
 
 Exit codes: 0 all paths closed, 1 a run stopped (its result says where and why, and keeps what it

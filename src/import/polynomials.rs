@@ -9,7 +9,7 @@ struct System {
     polynomials: Vec<String>,
 }
 
-/// The system of a text as that of a problem file (docs/equations.md), or nothing where it has none of the forms that are read. Unknowns begin at numbers that mean
+/// The system of a text as that of a problem file (docs/using/algebra.md), or nothing where it has none of the forms that are read. Unknowns begin at numbers that mean
 /// nothing, as such systems have no sketch.
 ///
 /// ```

@@ -10,7 +10,7 @@ use std::collections::HashSet;
 use std::f64::consts::FRAC_PI_2;
 use std::fmt::Write;
 
-/// The robot of a file as the text of a problem file (docs/joints.md).
+/// The robot of a file as the text of a problem file (docs/using/robots.md).
 ///
 /// # Errors
 /// What is wrong with it, and in which line.

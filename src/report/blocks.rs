@@ -133,7 +133,7 @@ impl BlockRuns<'_> {
         Ok(())
     }
 
-    /// The result as a value in memory: that of the whole, which stopped, with `blocks` added (docs/json.md).
+    /// The result as a value in memory: that of the whole, which stopped, with `blocks` added (docs/using/programs.md).
     pub fn to_value(&self, whole: &Outcome, all: bool) -> Value {
         let run = |problem, outcome| Run {
             problem,

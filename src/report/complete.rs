@@ -21,7 +21,7 @@ const SHOWN: usize = 12;
 /// Of the names of what was left out, so many are listed.
 const LISTED: usize = 24;
 
-/// One JSON object on one line: what is said of every problem (docs/json.md, "The problem"), and
+/// One JSON object on one line: what is said of every problem (docs/using/programs.md, "The problem"), and
 ///
 /// ```json
 /// {"status": "complete" | "partial" | "flexible", "reason": null, "verdict": "Complete, proved: ...",

@@ -9,7 +9,7 @@ use crate::system::{Gauge, Placement};
 use serde::Serialize;
 use serde_json::Value;
 
-/// The keys that results of all verbs with figures have in common (docs/json.md, "The problem").
+/// The keys that results of all verbs with figures have in common (docs/using/programs.md, "The problem").
 #[derive(Serialize)]
 pub(super) struct Drawing<'a> {
     version: u32,

@@ -45,7 +45,7 @@ pub fn alone_in_words(found: &[Alone]) -> String {
     text
 }
 
-/// The same for programs; see docs/json.md.
+/// The same for programs; see docs/using/programs.md.
 pub fn alone_to_value(found: &[Alone]) -> Value {
     let one = |alone: &Alone| {
         let dimension = &alone.edited.dimensions[0];
@@ -404,7 +404,7 @@ pub(super) fn write_points(
     Ok(())
 }
 
-/// An edit as one line of JSON (docs/edit.md):
+/// An edit as one line of JSON (docs/using/programs.md):
 ///
 /// ```json
 /// {"problem": "...", "status": "reached", "words": "...", "reason": null, "stopped_kind": null, "t": [1.0, 1.0],
@@ -502,7 +502,7 @@ fn middle(x: Interval) -> Value {
     json!(x.mid())
 }
 
-/// An edit as `krawl edit --json` writes it: with what is said of every problem (docs/json.md, "The problem"), and with
+/// An edit as `krawl edit --json` writes it: with what is said of every problem (docs/using/programs.md, "The problem"), and with
 /// what the session knows besides. `problem` is the one that was opened.
 pub fn edit_to_document(problem: &Problem, edited: &Edited, session: &Session) -> Value {
     let mut value = edit_to_value(problem, edited, session.moved());

@@ -376,7 +376,7 @@ struct Beside<'a> {
     seconds: Option<f64>,
 }
 
-/// The result as one line of JSON; docs/explore.md and docs/schema/explore.schema.json describe it.
+/// The result as one line of JSON; docs/using/explore.md and docs/schema/explore.schema.json describe it.
 pub fn explore_to_json(explored: &Explored) -> String {
     serde_json::to_string(&document(explored))
         .expect("strings, numbers and lists have a form in JSON")

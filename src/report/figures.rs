@@ -381,7 +381,7 @@ fn list(names: &[String]) -> String {
     }
 }
 
-/// The figures as a value for programs (docs/json.md, docs/schema/figures.schema.json).
+/// The figures as a value for programs (docs/using/programs.md, docs/schema/figures.schema.json).
 pub fn figures_to_value(figures: &Figures, listed: Listed) -> Value {
     let problem = figures.problem();
     let count = figures.count();

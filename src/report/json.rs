@@ -1,4 +1,4 @@
-//! Results for programs (docs/json.md, docs/schema/result.schema.json).
+//! Results for programs (docs/using/programs.md, docs/schema/result.schema.json).
 
 use super::drawing::{Drawing, names};
 use super::edit::alone_to_value;
@@ -35,7 +35,7 @@ pub struct Run<'a> {
 }
 
 impl Run<'_> {
-    /// The results as one line of JSON, as docs/json.md describes it.
+    /// The results as one line of JSON, as docs/using/programs.md describes it.
     ///
     /// Numbers read back as the floats that they were written from. JSON has neither infinities nor
     /// NaN: in their place stands `null`.

@@ -141,7 +141,7 @@ fn end_in_words(end: &WayEnd) -> String {
     }
 }
 
-/// A motion as a value in memory, as `krawl motion --json` writes it (docs/motion.md).
+/// A motion as a value in memory, as `krawl motion --json` writes it (docs/using/robots.md).
 pub fn motion_to_value(motion: &Motion) -> Value {
     let problem = &motion.problem;
     let points = |points: &[_]| points_to_value(problem, points);

@@ -118,7 +118,7 @@ fn value_of(end: &End, beyond: &str) -> String {
     }
 }
 
-/// The ranges as a value in memory, as `krawl limits --json` writes it (docs/edit.md).
+/// The ranges as a value in memory, as `krawl limits --json` writes it (docs/using/programs.md).
 pub fn ranges_to_value(problem: &Problem, ranges: &[Range], moved: Moved) -> Value {
     let end = |end: &End, figure: &[[Interval; 3]]| match end {
         End::Limit(value, limit) => {
@@ -176,7 +176,7 @@ pub fn sweep_in_words(problem: &Problem, index: usize, sweep: &Sweep) -> String 
     format!("{}: {frames}.{end}", problem.name)
 }
 
-/// A sweep as a value in memory, as `krawl sweep --json` writes it (docs/edit.md).
+/// A sweep as a value in memory, as `krawl sweep --json` writes it (docs/using/programs.md).
 pub fn sweep_to_value(problem: &Problem, index: usize, sweep: &Sweep) -> Value {
     let frames = sweep.frames.iter().map(|frame| {
         let mut value =

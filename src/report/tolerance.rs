@@ -110,7 +110,7 @@ fn rounded(x: f64, to: impl Fn(f64) -> f64) -> String {
     format!("{shown:.*}", places as usize)
 }
 
-/// The study as a value in memory, as `krawl tolerance --json` writes it (docs/tolerance.md).
+/// The study as a value in memory, as `krawl tolerance --json` writes it (docs/using/cad.md).
 pub fn tolerances_to_value(problem: &Problem, study: &Study) -> Value {
     let limits = study.limits.iter().map(|limits| {
         let [low, high] = &limits.values;

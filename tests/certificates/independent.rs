@@ -1,4 +1,4 @@
-//! Two other checkers of certificates, in Python and in JavaScript, written after `certs/README.md` and with other
+//! Two other checkers of certificates, in Python and in JavaScript, written after `docs/how/certificates.md` and with other
 //! methods: intervals of whole numbers, or exact values and small differences in floats, and tubes cut into pieces. The one in JavaScript
 //! was written by somebody who had that text alone. Each is left out where there is no Python 3.11, or no Node.js 18.
 
@@ -133,7 +133,7 @@ fn damaged_are_refused_in_javascript(file: &str) {
     assert!(refused.count() >= 40, "{text}");
 }
 
-/// Paths of some of the kinds of constraints that `certs/README.md` specifies.
+/// Paths of some of the kinds of constraints that `docs/how/certificates.md` specifies.
 #[test]
 fn other_constraints_are_proved_in_javascript() {
     kinds_are_proved_in_javascript(&KINDS[..5]);
@@ -360,7 +360,7 @@ fn are_proved_another_way(files: &[(&str, usize)]) {
     });
 }
 
-/// Of some of the kinds of constraints that `certs/README.md` specifies.
+/// Of some of the kinds of constraints that `docs/how/certificates.md` specifies.
 #[test]
 fn other_constraints_are_proved_another_way() {
     are_proved_another_way(&[

@@ -1,16 +1,16 @@
 #!/usr/bin/env node
 'use strict';
-/* A checker of krawl certificates (format version 3) in JavaScript, written from certs/README.md alone, without a look at
+/* A checker of krawl certificates (format version 3) in JavaScript, written from docs/how/certificates.md alone, without a look at
    krawl's own, and corrected where that text had been read otherwise than it was meant.
 
    node checker.js FILE.krawl [-v]     exit code: 0 VERIFIED, 1 REFUTED, 2 no certificate,
                                        3 NOT PROVED, 4 INCOMPLETE, 5 unsupported: not known to this checker
 
-   What it claims. VERIFIED: every claim that certs/README.md lists for this file holds for the problem in the
+   What it claims. VERIFIED: every claim that docs/how/certificates.md lists for this file holds for the problem in the
    file: tubes (curve for all |sigma| <= h, regular; phi(0) the only zero within r), chain, solutions
    (one zero per box, all points with t = 1 listed, each met, boxes disjoint), classes; of edits the
    tubes, links, t rising, ends and signs. INCOMPLETE: the same for a run that stopped. REFUTED is only
-   said where the contrary is proved; everything else is NOT PROVED. Supported is all that certs/README.md specifies: paths and
+   said where the contrary is proved; everything else is NOT PROVED. Supported is all that docs/how/certificates.md specifies: paths and
    edits, with all objects and constraints of its section *Other constraints*, with and without a reference. Not supported: other objects
    and constraints, and TOML that no run writes.
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks a krawl certificate after certs/README.md, with another method than krawl's own checker.
+"""Checks a krawl certificate after docs/how/certificates.md, with another method than krawl's own checker.
 
 Paths, and edits of distances; of other constraints those of the section *Other constraints*. Numbers are intervals of whole
 multiples of 2^-B. Every tube is cut into pieces, each proved with a matrix of its own. Prints VERIFIED or why not; exit codes as

@@ -112,7 +112,7 @@ fn the_unit_of_length_does_not_change_the_answer() {
     assert!(found > 10, "{found}");
 }
 
-/// The table of docs/bend.md.
+/// The table of docs/measured/tried.md.
 #[test]
 #[ignore = "minutes"]
 fn table() {

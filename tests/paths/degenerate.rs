@@ -249,7 +249,7 @@ fn the_hexahedron_closes_through_flat_figures() {
 }
 
 /// The shipped one has 7 solutions up to reflection, as the paper's first path, and an even number of flat ones, as every
-/// closed path that meets flat figures at t = 1 alone (docs/degenerate.md).
+/// closed path that meets flat figures at t = 1 alone (docs/how/tubes.md).
 #[test]
 fn the_shipped_hexahedron_has_seven_solutions_up_to_reflection() {
     let problem = shipped();

@@ -411,7 +411,7 @@ struct Row {
 
 /// `FAMILY=flaps` prints those only whose names begin so.
 #[test]
-#[ignore = "prints the table of docs/hard.md"]
+#[ignore = "prints the table of docs/measured/figures.md"]
 fn table() {
     let only = std::env::var("FAMILY").unwrap_or_default();
     println!(

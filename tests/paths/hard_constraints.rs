@@ -1,4 +1,4 @@
-//! Hard cases with other constraints than distances: families with a δ that goes to zero. Their table is in `docs/hard.md`.
+//! Hard cases with other constraints than distances: families with a δ that goes to zero. Their table is in `docs/measured/figures.md`.
 
 use krawl::problem::Problem;
 use krawl::track::{Control, Options, Outcome, Space, Status, solve};

@@ -1,4 +1,4 @@
-//! docs/paper.md names files and types of the code: they are there.
+//! docs/measured/paper.md names files and types of the code: they are there.
 
 use std::fs;
 use std::path::Path;
@@ -24,7 +24,7 @@ fn spans(text: &str) -> Vec<&str> {
 
 #[test]
 fn what_the_page_about_the_papers_names_is_there() {
-    let text = fs::read_to_string("docs/paper.md").unwrap();
+    let text = fs::read_to_string("docs/measured/paper.md").unwrap();
     let mut sources = Vec::new();
     for folder in [
         "crates/kernel/src",
@@ -64,7 +64,7 @@ fn what_the_page_about_the_papers_names_is_there() {
     assert!(files > 60 && names > 3, "{files} files, {names} names");
     for link in text.split("](").skip(1).filter_map(|r| r.split_once(')')) {
         assert!(
-            fs::exists(format!("docs/{}", link.0)).unwrap(),
+            fs::exists(format!("docs/measured/{}", link.0)).unwrap(),
             "{}",
             link.0
         );
@@ -73,7 +73,7 @@ fn what_the_page_about_the_papers_names_is_there() {
 
 #[test]
 fn every_numbered_item_of_the_papers_has_its_row() {
-    let text = fs::read_to_string("docs/paper.md").unwrap();
+    let text = fs::read_to_string("docs/measured/paper.md").unwrap();
     let section = |from: &str| {
         let (_, rest) = text.split_once(from).unwrap_or_else(|| panic!("{from}"));
         rest.split("\n## ").next().unwrap()

@@ -63,7 +63,7 @@ fn all_shipped_problems_meet_the_schema() {
         for document in &documents {
             let name = document["problem"].as_str().unwrap();
             assert_eq!(complain(&validator, document), [""; 0], "{name} {way:?}");
-            // No nulls but where docs/json.md has them.
+            // No nulls but where docs/using/programs.md has them.
             assert!(document["length"].is_number() && document["t_range"][0].is_number());
             assert!(document["frame"].is_object(), "{name}");
             let certified = document["mode"] == "certified";
@@ -487,7 +487,7 @@ fn a_whole_at_rest_is_answered_by_its_blocks() {
 #[test]
 fn reasons_to_stop_have_names() {
     let names: Vec<&str> = StopKind::ALL.map(StopKind::name).to_vec();
-    let doc = fs::read_to_string("docs/json.md").unwrap();
+    let doc = fs::read_to_string("docs/using/programs.md").unwrap();
     for (k, name) in names.iter().enumerate() {
         assert!(!names[..k].contains(name), "{name}");
         assert!(doc.contains(&format!("| `{name}` |")), "{name}");

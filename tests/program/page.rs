@@ -218,7 +218,7 @@ fn a_result_is_shown_and_many_solutions_are_smooth() {
     let said = said(&title);
     assert_eq!(said[0], 285, "{title}");
     assert!(said[1][0].as_u64().unwrap() > 10_000);
-    // Figures of these times are in docs/measured.md.
+    // Figures of these times are in docs/measured/figures.md.
     let times = timed(&browser, &page);
     eprintln!("milliseconds for a frame: {times}");
     for what in ["slider", "turn", "pick", "slider with all", "turn with all"] {

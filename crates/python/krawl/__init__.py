@@ -13,7 +13,7 @@
 >>> float(run.solutions[0].lower[2, 1]) <= 2.4 <= float(run.solutions[0].upper[2, 1])
 True
 
-A problem is the path of a file, or a dictionary with the keys of such a file (docs/problem-files.md). Numbers are
+A problem is the path of a file, or a dictionary with the keys of such a file (docs/using/problem-files.md). Numbers are
 exact: a float stands for its shortest decimal, 0.1 for one tenth, and `decimal.Decimal` for itself.
 
 Every box is given as two arrays, `lower` and `upper`, whose floats enclose the exact numbers.

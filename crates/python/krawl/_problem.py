@@ -34,7 +34,7 @@ def system(
     *,
     name: str = "system",
 ) -> dict:
-    """A problem of unknown numbers and equations of one's own, which every verb takes (docs/equations.md).
+    """A problem of unknown numbers and equations of one's own, which every verb takes (docs/using/algebra.md).
 
     `equations`: texts such as ``"x**2 + y**2 = a"``, or what SymPy has: expressions that are to be zero, and ``Eq``.
     `unknowns`: for each its value in the sketch, where a path begins.

@@ -1,4 +1,4 @@
-"""What the verbs give back. `data` of each is the JSON that the command line writes (docs/json.md)."""
+"""What the verbs give back. `data` of each is the JSON that the command line writes (docs/using/programs.md)."""
 
 from __future__ import annotations
 
@@ -50,14 +50,14 @@ class Solution(Figure):
 
     @property
     def unknowns(self) -> dict:
-        """The values of unknown numbers by name: the middles of their boxes (docs/equations.md)."""
+        """The values of unknown numbers by name: the middles of their boxes (docs/using/algebra.md)."""
         objects = self.data.get("objects") or {}
         middle = lambda value: value[0] + 0.5 * (value[1] - value[0])  # noqa: E731
         return {name: middle(at["value"]) for name, at in objects.items() if "value" in at}
 
     @property
     def joints(self) -> dict:
-        """By how many degrees each joint is turned (``turn``) and how far it is drawn out (``travel``), by name (docs/joints.md)."""
+        """By how many degrees each joint is turned (``turn``) and how far it is drawn out (``travel``), by name (docs/using/robots.md)."""
         return _joints(self.data.get("objects") or {})
 
     @property
@@ -84,7 +84,7 @@ class Run:
 
     @property
     def stopped_kind(self) -> Optional[str]:
-        """What made the run stop, in a word (docs/json.md)."""
+        """What made the run stop, in a word (docs/using/programs.md)."""
         return self.data.get("stopped_kind")
 
     @property
@@ -139,17 +139,17 @@ class Edited:
 
     @property
     def unknowns(self) -> dict:
-        """The values of unknown numbers by name in the figure (docs/equations.md)."""
+        """The values of unknown numbers by name in the figure (docs/using/algebra.md)."""
         return self.data.get("unknowns", {})
 
     @property
     def joints(self) -> dict:
-        """By how many degrees each joint is turned (``turn``) and how far it is drawn out (``travel``), by name (docs/joints.md)."""
+        """By how many degrees each joint is turned (``turn``) and how far it is drawn out (``travel``), by name (docs/using/robots.md)."""
         return _joints(self.data.get("joints") or {})
 
     @property
     def dragged(self) -> Optional[dict]:
-        """Of points that were dragged: where each was wanted, and how far it is from there (docs/edit.md)."""
+        """Of points that were dragged: where each was wanted, and how far it is from there (docs/using/programs.md)."""
         return self.data.get("dragged")
 
     @property
@@ -159,7 +159,7 @@ class Edited:
 
     @property
     def stopped_kind(self) -> Optional[str]:
-        """What made the edit stop, in a word (docs/json.md)."""
+        """What made the edit stop, in a word (docs/using/programs.md)."""
         return self.data.get("stopped_kind")
 
 

@@ -1,4 +1,4 @@
-//! What results of all verbs with figures have in common, read from their JSON (docs/json.md).
+//! What results of all verbs with figures have in common, read from their JSON (docs/using/programs.md).
 
 use super::{Bar, Figure, Label, Page, Shape, Tone, outlines};
 use crate::interval::hull;

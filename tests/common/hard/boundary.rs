@@ -87,7 +87,7 @@ fn apex(a: &[Rational; 2], b: &[Rational; 2], arms: [&Rational; 2]) -> [Rational
     place.map(|x| cut(&x, DIGITS).value().clone())
 }
 
-/// Directions of distances are told apart by sines of so many times α (docs/reduced.md).
+/// Directions of distances are told apart by sines of so many times α (docs/how/tubes.md).
 pub const SINES: f64 = 2.5;
 
 /// Four triangles whose γ, or sine of the angle at the apex, comes down to the threshold of plans but for

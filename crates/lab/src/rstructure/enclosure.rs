@@ -11,7 +11,7 @@ use krawl::interval::{Interval, point};
 /// The middle of the box is solved for in floats; what is left, and the box's width, goes through
 /// the R-structure in interval arithmetic. So a thin box comes out a few roundings wide. A thick
 /// one grows with the wrapping effect (section 7): widths pass from block to block as |A_ij|
-/// times the width before, regardless of signs. `docs/rstructure.md` has figures.
+/// times the width before, regardless of signs. `docs/measured/figures.md` has figures.
 ///
 /// ```
 /// use krawl::interval::hull;

@@ -1,4 +1,4 @@
-//! What a certificate consists of (byte for byte in `certs/README.md`).
+//! What a certificate consists of (byte for byte in `docs/how/certificates.md`).
 
 use crate::problem::{Decimal, Problem};
 

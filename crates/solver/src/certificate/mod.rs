@@ -4,7 +4,7 @@
 //! it again. [`Writer`] makes one while a run goes on; [`verify`] checks all of its claims in
 //! arithmetic of its own: intervals, whole numbers, and floats with a bound on what they lose. The checker uses the problem, the intervals,
 //! and the definition of the equations, and nothing of the tracker: who trusts it has few lines
-//! to read. The format and the mathematics are in `certs/README.md`.
+//! to read. The format and the mathematics are in `docs/how/certificates.md`.
 //!
 //! ```
 //! use krawl::certificate::{Outcome, Settings, Writer, verify};

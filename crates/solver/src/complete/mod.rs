@@ -4,7 +4,7 @@
 //! plan, by branch and bound with Taylor models ([`model`]) that are rounded outwards: a part of the
 //! parameter space is given up only where a bound proves that it holds no figure, or where all its figures lie
 //! where Krawczyk's test in all coordinates has proved exactly one ([`krawczyk`]). What is proved, how, and
-//! how fast it is: `docs/complete.md`.
+//! how fast it is: `docs/how/sets.md`.
 //!
 //! ```
 //! use krawl::complete::{Options, Status, all};
@@ -74,7 +74,7 @@ use visit::Found;
 /// Searches for all figures of a problem, up to its symmetries: of distances alone up to rigid motions and reflections.
 ///
 /// Of distances alone by a construction plan, part by part where they fall apart; of other constraints over all coordinates. The
-/// sketch plays a part only where constraints say less than they mean (docs/problem-files.md): on which side a point is, which
+/// sketch plays a part only where constraints say less than they mean (docs/using/problem-files.md): on which side a point is, which
 /// of two angles is meant.
 pub fn all(problem: &Problem, options: &Options) -> Result<Complete, Unserved> {
     let begin = Instant::now();

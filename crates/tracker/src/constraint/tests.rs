@@ -350,7 +350,7 @@ fn arcs() {
 
 #[test]
 fn the_documents_examples() {
-    let text = include_str!("../../../../docs/problem-files.md");
+    let text = include_str!("../../../../docs/using/problem-files.md");
     let blocks = text.split("```toml\n").skip(1);
     let problems: Vec<_> = blocks
         .map(|block| block.split("```").next().unwrap())

@@ -2,7 +2,7 @@
 
 use super::{Decimal, Distance, Target};
 
-/// c is so much of the mean target length: docs/bend.md has the measurements behind it.
+/// c is so much of the mean target length: docs/measured/tried.md has the measurements behind it.
 const PART: f64 = 0.05;
 
 /// Part of the mean target length, to six digits: the same path in any unit.

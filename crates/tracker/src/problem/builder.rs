@@ -286,7 +286,7 @@ impl ProblemBuilder {
         self
     }
 
-    /// Sets the bend's coefficient c. Left out, it is a part of the mean target length (docs/bend.md).
+    /// Sets the bend's coefficient c. Left out, it is a part of the mean target length (docs/using/problem-files.md).
     pub fn bend_coefficient<N>(mut self, c: N) -> Self
     where
         N: TryInto<Decimal>,

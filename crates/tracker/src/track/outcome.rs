@@ -45,7 +45,7 @@ impl Space {
     }
 
     /// The space in which certified runs are faster, by the number of free coordinates (which is
-    /// that of distances): the reduced one from about 70 on (docs/reduced.md).
+    /// that of distances): the reduced one from about 70 on (docs/how/tubes.md).
     pub fn for_certified(coordinates: usize) -> Self {
         if coordinates < 70 {
             Space::Full

@@ -307,7 +307,7 @@ impl Figures {
         self.account.meets_all()
     }
 
-    /// Whether there are constraints whose words leave more than one case open (docs/problem-files.md): sides of lines and
+    /// Whether there are constraints whose words leave more than one case open (docs/using/problem-files.md): sides of lines and
     /// tangency from outside or inside, of which the sketch's is taken; angles, of which the size counts; and directions
     /// that agree, as of tangents at a shared end, which may go on or come back.
     pub fn has_cases(&self) -> bool {

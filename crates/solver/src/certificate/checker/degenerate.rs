@@ -1,5 +1,5 @@
 //! Pieces of paths through degenerate (flat) figures at t = 1, in equations with heights divided by 1 − t: from the given equations
-//! to the divided ones and back. What is claimed of them, and why that is enough, is in `certs/README.md`.
+//! to the divided ones and back. What is claimed of them, and why that is enough, is in `docs/how/tubes.md`.
 
 use super::equations::Equations;
 use super::place::{Place, Spot};

@@ -1,5 +1,5 @@
 //! The one test that proves everything: Krawczyk's, with a preconditioner that moves along a
-//! polynomial. The mathematics and its notation are in `certs/README.md`.
+//! polynomial. The mathematics and its notation are in `docs/how/tubes.md`.
 
 use super::equations::{Equations, ZERO};
 use super::extended::{Low, rounded_time};

@@ -1,4 +1,4 @@
-//! One tube, proved again. The mathematics and its notation are in `certs/README.md`.
+//! One tube, proved again. The mathematics and its notation are in `docs/how/tubes.md`.
 
 use super::equations::{Equations, ZERO};
 use super::guess::{Inverse, Moving, expand};

@@ -1,4 +1,4 @@
-//! Covers on disk: what the search for all solutions leaves to be checked (`docs/complete.md`).
+//! Covers on disk: what the search for all solutions leaves to be checked (`docs/how/certificates.md`).
 //!
 //! The record of a certificate: lines of text, and then as many bytes of marks as the last line says.
 
@@ -20,7 +20,7 @@ pub enum Radius {
     Parameter(usize),
 }
 
-/// How a point is placed (docs/complete.md, "How it works").
+/// How a point is placed (docs/how/sets.md, "Placing points").
 #[derive(Debug, Clone, PartialEq)]
 pub enum Kind {
     /// In the plane, at the given distance from a point, in a driving direction.

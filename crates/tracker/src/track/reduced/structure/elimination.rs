@@ -37,7 +37,7 @@ impl Maker {
 }
 
 /// Directions of distances are told apart by their sines, of which so many times α is asked: measured,
-/// see docs/reduced.md.
+/// see docs/how/tubes.md.
 const SINES: f64 = 2.5;
 
 /// The factors at one point.

@@ -31,7 +31,7 @@ struct Pivot {
 }
 
 /// Pivots may be worth this part of what is asked where rows of key unknowns have fewer lanes then: measured, see
-/// docs/reduced.md.
+/// docs/how/tubes.md.
 const LEAST: f64 = 0.6;
 
 #[derive(Debug, Clone)]

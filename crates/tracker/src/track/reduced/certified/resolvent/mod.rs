@@ -10,7 +10,7 @@
 //! ŷ ≥ |g| + (N + Â|X|) ŷ. All of it is block lower triangular: ŷ is found by substitution, and A(s) is
 //! regular if the diagonal blocks of N + Â|X| are smaller than one. Only what X leaves over is
 //! bounded without its signs from block to block; that is what keeps the wrapping effect small
-//! (docs/reduced.md).
+//! (docs/how/tubes.md).
 
 mod listed;
 
