@@ -62,18 +62,7 @@ pub const PASSES: u8 = 4;
     about = "\
 Finds figures that meet given dimensions, with proof: it leads the dimensions of a rough sketch to the wanted ones
 and follows the figure as it moves. Reads its own files (TOML), sketches of FreeCAD and SolveSpace, and molecules.",
-    after_help = "\
-Examples:
-  krawl check sketch.toml                   is the input in order, and what was understood?
-  krawl solve sketch.toml                   the figures that meet the dimensions
-  krawl solve sketch.toml --html page.html  a page to look at
-  krawl edit sketch.toml --set a-b=5.2      change a dimension without a flip
-  krawl motion sketch.toml --free a-c       a linkage all the way round, past every dead centre
-  krawl tolerance sketch.toml --default 0.01  every dimension within its limits
-  krawl all sketch.toml                     every figure that there is
-  krawl solve sketch.toml --cert proof.krawl && krawl verify proof.krawl
-
-`krawl VERB -h` has a verb's options on one screen, `krawl VERB --help` all there is to say of them.",
+    after_help = "`krawl VERB -h` has a verb's options on one screen, `krawl --help` and `krawl VERB --help` examples and all the rest.",
     after_long_help = "\
 Examples:
   krawl check sketch.toml                   is the input in order, and what was understood?

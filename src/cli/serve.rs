@@ -65,8 +65,13 @@ pub fn serve(session: &mut Session, loaded: &Loaded) -> bool {
 }
 
 fn answer(session: &mut Session, loaded: &Loaded, line: &[u8]) -> Value {
+    // A list would be taken for the values of an object.
+    let is_object = line.trim_ascii_start().starts_with(b"{");
     let request: Request = match serde_json::from_slice(line) {
-        Ok(request) => request,
+        Ok(request) if is_object => request,
+        Ok(_) => {
+            return json!({"status": "error", "reason": "a line is a JSON object, as `{}`, not a list"});
+        }
         Err(error) => {
             let example = r#"write a line such as {"set": {"a-b": 5.2}}"#;
             return json!({"status": "error", "reason": format!("{error}; {example}")});

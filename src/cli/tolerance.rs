@@ -3,9 +3,13 @@
 use super::edit::beside;
 use super::measured::Measured;
 use super::output::{self, Destination};
+use super::pictures::Pictures;
 use super::{BAD_INPUT, CLOSED, STOPPED, input, interrupt};
 use krawl::problem::Decimal;
-use krawl::report::{tolerances_in_words, tolerances_to_table, tolerances_to_value};
+use krawl::report::page::Page;
+use krawl::report::{
+    tolerances_in_words, tolerances_to_csv, tolerances_to_table, tolerances_to_value,
+};
 use krawl::tolerance::{limits, study};
 use krawl::track::Options;
 use std::path::PathBuf;
@@ -19,7 +23,8 @@ use std::path::PathBuf;
 Examples:
   krawl tolerance docs/examples/plate.toml --default 0.1
   krawl tolerance docs/examples/plate.toml --default 0.1 --tolerance C-D=-0.2,0.5 --measure D-A --measure \"angle B C D\"
-  krawl tolerance docs/examples/platform.toml --default 0.1 --json platform.json
+  krawl tolerance docs/examples/plate.toml --default 0.1 --html plate.html    the band in which each point stays
+  krawl tolerance docs/examples/platform.toml --default 0.1 --csv platform.csv
 
 Exit codes: 0 proved, 1 interrupted, 2 bad input, or limits for which it is not proved that there is one figure for each choice, or results that could not be
 written.")]
@@ -42,8 +47,15 @@ pub struct Arguments {
     /// Write the result as JSON; `-` is standard output
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
+    /// Write what is measured as CSV; `-` is standard output
+    ///
+    /// A row for each measure: its bounds, and what each dimension has to do with it
+    #[arg(long, value_name = "FILE")]
+    csv: Option<PathBuf>,
     #[command(flatten)]
     measured: Measured,
+    #[command(flatten)]
+    pictures: Pictures,
     #[command(flatten)]
     time: interrupt::Time,
     /// Print nothing
@@ -61,6 +73,8 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let shown = arguments.file.display();
     let (problem, made) = input::whole(&arguments.file, arguments.sketch.as_deref())?;
     let json = beside(&arguments.file, arguments.json.as_deref())?;
+    let csv = beside(&arguments.file, arguments.csv.as_deref())?;
+    let pictures = arguments.pictures.places([&arguments.file])?;
     let default = arguments.default.as_deref().map(deviations).transpose()?;
     let named = arguments.tolerance.iter().map(|text| {
         let (name, value) = text
@@ -92,10 +106,22 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         study.account = made.account;
     }
     let mut written = true;
-    if let Some(json) = &json {
-        written &= json.write(&(tolerances_to_value(&problem, &study).to_string() + "\n"));
+    if let Some(csv) = &csv {
+        written &= csv.write(&tolerances_to_csv(&problem, &study));
     }
-    if json == Some(Destination::StandardOutput) && !arguments.quiet {
+    if json.is_some() || !pictures.is_empty() {
+        let value = tolerances_to_value(&problem, &study);
+        if let Some(json) = &json {
+            written &= json.write(&(value.to_string() + "\n"));
+        }
+        if !pictures.is_empty() {
+            let page = Page::from_result(&value).map_err(|error| error.to_string())?;
+            written &= pictures.write(&page);
+        }
+    }
+    let standard = Some(Destination::StandardOutput);
+    let elsewhere = json == standard || csv == standard || pictures.use_standard_output();
+    if elsewhere && !arguments.quiet {
         output::complain(&tolerances_in_words(&problem, &study));
     } else if !arguments.quiet {
         written &= output::print(&tolerances_to_table(&problem, &study));

@@ -26,8 +26,9 @@ proof of a run that stopped, true as far as it goes.")]
 pub struct Arguments {
     /// The certificate, as `--cert` of a verb writes it
     cert: PathBuf,
-    /// The problem that the certificate has to be about: a problem file (TOML), or a sketch of SolveSpace (.slvs) or
-    /// FreeCAD (.FCStd)
+    /// The problem that the certificate has to be about
+    ///
+    /// A problem file (TOML), or a sketch of SolveSpace (.slvs) or FreeCAD (.FCStd)
     file: Option<PathBuf>,
     /// Which sketch of a file that holds several (`krawl check` lists them)
     #[arg(long, value_name = "NAME", requires = "file")]

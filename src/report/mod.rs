@@ -60,7 +60,9 @@ pub use sweep::{
 };
 pub use table::{to_first_table, to_no_first, to_short_table, to_summary, to_table};
 pub use theorem::theorem;
-pub use tolerance::{tolerances_in_words, tolerances_to_table, tolerances_to_value};
+pub use tolerance::{
+    tolerances_in_words, tolerances_to_csv, tolerances_to_table, tolerances_to_value,
+};
 
 #[cfg(test)]
 mod tests {

@@ -238,7 +238,7 @@ pub fn frames_to_csv(
 }
 
 /// A name as a field of CSV (RFC 4180).
-fn quoted(name: &str) -> String {
+pub(super) fn quoted(name: &str) -> String {
     if name.contains([',', '"', ' ']) {
         format!("\"{}\"", name.replace('"', "\"\""))
     } else {

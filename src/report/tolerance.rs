@@ -3,6 +3,7 @@
 use super::certain_digits;
 use super::drawing::Drawing;
 use super::edit::{bounds, points_to_value};
+use super::sweep::quoted;
 use crate::order::InOrder;
 use crate::problem::{Problem, counted};
 use crate::tolerance::{Measured, Study};
@@ -138,4 +139,49 @@ pub fn tolerances_to_value(problem: &Problem, study: &Study) -> Value {
         "bands": points_to_value(problem, &study.bands),
         "measured": measured.collect::<Vec<_>>(),
     }))
+}
+
+/// The study as CSV: for each measure its value, its worst cases (outer ends, as floats), the root of the sum of the squares, and by how much
+/// it grows, about, as each dimension goes from its least value to its greatest.
+pub fn tolerances_to_csv(problem: &Problem, study: &Study) -> String {
+    let own = [
+        "measure",
+        "unit",
+        "nominal",
+        "least",
+        "greatest",
+        "root of squares",
+    ];
+    let names = study
+        .limits
+        .iter()
+        .map(|limits| problem.dimension_name(limits.index));
+    let names = own.map(str::to_owned).into_iter().chain(names);
+    let mut out = names
+        .map(|name| quoted(&name))
+        .collect::<Vec<_>>()
+        .join(",")
+        + "\n";
+    for measured in &study.measured {
+        let [low, high] = measured.bounds;
+        let numbers = [
+            measured.nominal.mid(),
+            low.inf(),
+            high.sup(),
+            measured.root_of_squares,
+        ];
+        let total: f64 = measured.effects.iter().map(|effect| effect.abs()).sum();
+        // Six digits are more than is known to first order.
+        let short = |effect: &f64| match effect.abs() > 1e-9 * total {
+            true => format!("{effect:.5e}").parse().unwrap_or(*effect),
+            false => 0.0,
+        };
+        let effects = measured.effects.iter().map(short);
+        let numbers = numbers.into_iter().chain(effects).map(|x| x.to_string());
+        let cells = [quoted(&measured.name), measured.unit.to_owned()]
+            .into_iter()
+            .chain(numbers);
+        out += &(cells.collect::<Vec<_>>().join(",") + "\n");
+    }
+    out
 }

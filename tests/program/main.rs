@@ -13,6 +13,7 @@ mod problem_files;
 mod readme;
 mod robustness;
 mod taking;
+mod tolerance;
 
 /// Runs the program: its exit code, and what it wrote to standard output and to standard error.
 fn krawl(arguments: &[&str]) -> (Option<i32>, String, String) {

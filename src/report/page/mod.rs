@@ -4,6 +4,7 @@
 //! for each. What draws pages knows nothing of verbs. A page is written as HTML that needs no network: `page.html` with
 //! `page.css`, `page.js` and the data in it.
 
+mod banded;
 mod complete;
 mod cut;
 mod edited;

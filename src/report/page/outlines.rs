@@ -207,8 +207,11 @@ impl Drawn {
                 let corners: Vec<String> = corners.iter().map(|&p| at(p)).collect();
                 format!("M{}Z", corners.join("L"))
             }
-            Drawn::Circle([x, y], radius) => {
-                let (left, right) = (at([x - radius, *y]), at([x + radius, *y]));
+            Drawn::Circle(centre, radius) => {
+                // Two halves, whose ends are as far apart as the radius says that is printed.
+                let tenths = |x: f64| (10.0 * x).round() / 10.0;
+                let ([x, y], radius) = (centre.each(tenths), tenths(*radius));
+                let (left, right) = (at([x - radius, y]), at([x + radius, y]));
                 format!(
                     "M{left}A{radius:.1} {radius:.1} 0 1 0 {right}A{radius:.1} {radius:.1} 0 1 0 {left}"
                 )
@@ -266,6 +269,20 @@ mod tests {
             angle = turn(&mut numbers, if end < 160.0 { 2.0 } else { angle });
             assert!(angle > 0.0 && numbers[9] > 0.0, "{end}");
         }
+    }
+
+    #[test]
+    fn a_circle_is_drawn_round_whatever_is_rounded() {
+        let drawn = Drawn::Circle([125.0, 125.04], 11.248).path();
+        assert_eq!(
+            drawn,
+            "M113.8 125.0A11.2 11.2 0 1 0 136.2 125.0A11.2 11.2 0 1 0 113.8 125.0"
+        );
+        let drawn = Drawn::Circle([125.0, 125.0], 11.26).path();
+        assert_eq!(
+            drawn,
+            "M113.7 125.0A11.3 11.3 0 1 0 136.3 125.0A11.3 11.3 0 1 0 113.7 125.0"
+        );
     }
 
     #[test]

@@ -268,27 +268,43 @@ impl<'a> Reader<'a> {
             }
         }
         // Lines through points and rigid bodies hold points together too.
+        let mut pairs: Vec<[usize; 2]> = Vec::new();
         for object in self.result["objects"].as_array().into_iter().flatten() {
             let points = object["points"].as_array().into_iter().flatten();
             let points: Vec<usize> = points.filter_map(|name| self.number(name)).collect();
-            let pairs: Vec<[usize; 2]> = match object["kind"].as_str() {
-                Some("line") => points.windows(2).map(|w| [w[0], w[1]]).collect(),
-                Some("body") => points
-                    .iter()
-                    .enumerate()
-                    .flat_map(|(k, &a)| points[..k].iter().map(move |&b| [a, b]))
-                    .collect(),
-                _ => Vec::new(),
-            };
-            for ends in pairs {
-                let known = |bar: &Bar| bar.ends == ends || bar.ends == [ends[1], ends[0]];
-                if !bars.iter().any(known) {
-                    bars.push(Bar {
-                        ends,
-                        label: String::new(),
-                        target: None,
-                    });
+            match object["kind"].as_str() {
+                Some("line") => pairs.extend(points.windows(2).map(|w| [w[0], w[1]])),
+                Some("body") => {
+                    let with = |(k, &a): (usize, &usize)| {
+                        points[..k].iter().map(move |&b| [a, b]).collect::<Vec<_>>()
+                    };
+                    pairs.extend(points.iter().enumerate().flat_map(with));
                 }
+                _ => {}
+            }
+        }
+        // Whoever says that two points are level, or that what is between them is parallel to something, has a line in mind.
+        for constraint in list(self.result, "constraints")? {
+            let is_of_lines = |kind| {
+                matches!(
+                    kind,
+                    "horizontal" | "vertical" | "parallel" | "perpendicular" | "equal"
+                )
+            };
+            if constraint["kind"].as_str().is_some_and(is_of_lines) {
+                let items = constraint["items"].as_array().into_iter().flatten();
+                let points: Vec<usize> = items.map_while(|name| self.number(name)).collect();
+                pairs.extend(points.as_chunks().0);
+            }
+        }
+        for ends in pairs {
+            let known = |bar: &Bar| bar.ends == ends || bar.ends == [ends[1], ends[0]];
+            if !bars.iter().any(known) {
+                bars.push(Bar {
+                    ends,
+                    label: String::new(),
+                    target: None,
+                });
             }
         }
         Ok(bars)

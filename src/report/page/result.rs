@@ -1,7 +1,7 @@
 //! The page of a result, from its JSON: whichever verb wrote it.
 
 use super::reader::{Reader, ShowError, wrong};
-use super::{Page, complete, cut, edited, explored, motion, ranges, solved, swept};
+use super::{Page, banded, complete, cut, edited, explored, motion, ranges, solved, swept};
 use serde_json::Value;
 
 impl Page {
@@ -31,6 +31,7 @@ impl Page {
             Some("solve") => solved::page(&reader()?),
             Some("edit") => edited::page(&reader()?),
             Some("motion") => motion::page(&reader()?),
+            Some("tolerance") => banded::page(&reader()?),
             Some("sweep") => swept::page(&reader()?),
             Some("limits") => ranges::page(&reader()?),
             Some("all") => complete::page(&reader()?),

@@ -1,0 +1,175 @@
+//! The page of `tolerance`: the figure, with the band in which each point stays.
+
+use super::reader::{Reader, ShowError, bounds, digits, list, middle, pair, text, wrong};
+use super::{Figure, Page, Shape, Text, Tone};
+use crate::order::InOrder;
+use serde_json::Value;
+
+/// The widest band is drawn about so wide, as a part of the figure.
+const SEEN: f64 = 0.15;
+
+pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
+    let result = reader.result;
+    let mut page = reader.page()?;
+    page.figures[0].name = "In the file".into();
+    page.figures[0].note = "as it is drawn".into();
+    (page.badge, page.tone) = ("proved".into(), Tone::Proved);
+    let words = text(result, "words")?;
+    page.verdict = words
+        .trim_start_matches(&format!("{}: ", page.title))
+        .to_owned()
+        + ".";
+    let figure = reader
+        .figure(&result["figure"], &Value::Null)
+        .ok_or(wrong("figure"))?;
+    let bands = page
+        .points
+        .iter()
+        .map(|name| bounds(&result["bands"][name.as_str()], reader.dimension));
+    let bands: Vec<Vec<(f64, f64)>> = bands.collect::<Option<_>>().ok_or(wrong("bands"))?;
+    let (sizes, widths) = (
+        spans(&figure.points),
+        bands.iter().flatten().map(|(low, high)| high - low),
+    );
+    let (size, widest) = (sizes.fold(0.0, f64::max), widths.fold(0.0, f64::max));
+    let times = times(SEEN * size / widest);
+    let mut outlines = Vec::new();
+    for (name, band) in page.points.iter().zip(&bands) {
+        // A point that stays where it is has no band.
+        if band.iter().all(|(low, high)| high - low < 1e-9 * size) {
+            continue;
+        }
+        let side = |sign: f64| -> Vec<f64> {
+            let end =
+                |&(low, high): &(f64, f64)| middle((low, high)) + 0.5 * sign * times * (high - low);
+            band.iter().map(end).collect()
+        };
+        for corners in faces(&side(-1.0), &side(1.0)) {
+            page.shapes.push(Shape {
+                name: format!("band of {name}"),
+                kind: "plane".into(),
+            });
+            outlines.push(
+                corners
+                    .into_iter()
+                    .flat_map(|at| reader.there(at))
+                    .collect::<Vec<f64>>(),
+            );
+        }
+    }
+    page.figures[0]
+        .outlines
+        .extend(outlines.iter().map(|_| Vec::new()));
+    page.figures.push(Figure {
+        name: "Nominal".into(),
+        note: match times {
+            1.0 => "with the band in which each point stays".into(),
+            n => format!("with the band in which each point stays, {n} times as wide"),
+        },
+        class: Some(0),
+        outlines: figure.outlines.iter().cloned().chain(outlines).collect(),
+        ..figure
+    });
+    let names = list(result, "limits")?
+        .iter()
+        .map(|limits| text(limits, "name"));
+    let names = names.collect::<Result<Vec<_>, _>>()?;
+    let mut due = Vec::new();
+    for measured in list(result, "measured")? {
+        let name = text(measured, "name")?;
+        let end = |key: &'static str| pair(&measured[key]).ok_or(wrong("measured"));
+        let (least, greatest) = (end("least")?.0, end("greatest")?.1);
+        let squares = measured["root_of_squares"]
+            .as_f64()
+            .ok_or(wrong("measured"))?;
+        let nominal = digits(end("nominal")?);
+        page.rows.push((
+            name.to_owned(),
+            format!("{nominal}; at worst from {least:.6} to {greatest:.6}; root of the sum of the squares ±{squares:.3}"),
+        ));
+        let effects = list(measured, "effects")?
+            .iter()
+            .map(|x| x.as_f64().unwrap_or(0.0).abs());
+        let mut effects: Vec<(f64, &str)> = effects.zip(names.iter().copied()).collect();
+        let all: f64 = effects.iter().map(|(effect, _)| effect).sum();
+        effects.order_by(|a, b| b.0.total_cmp(&a.0));
+        let most = effects
+            .iter()
+            .take(3)
+            .filter(|(effect, _)| *effect > 0.005 * all);
+        let most =
+            most.map(|(effect, dimension)| format!("{dimension} {:.0} %", 100.0 * effect / all));
+        due.push(format!("{name}: {}", most.collect::<Vec<_>>().join(", ")));
+    }
+    page.text = vec![
+        Text::Paragraph("What it is due to, most first (to first order, in floats):".into()),
+        Text::List(due),
+    ];
+    page.digits = reader.proved_digits();
+    Ok(page)
+}
+
+/// How far apart points are along each axis.
+fn spans(points: &[f64]) -> impl Iterator<Item = f64> {
+    (0..3).map(|k| {
+        let along = points.iter().skip(k).step_by(3);
+        let (low, high) = along.fold((f64::MAX, f64::MIN), |(low, high), &x| {
+            (low.min(x), high.max(x))
+        });
+        high - low
+    })
+}
+
+/// The greatest of 1, 2, 5, 10, 20, ... up to a number; 1 below.
+fn times(most: f64) -> f64 {
+    let steps = (0..12).flat_map(|k| [1.0, 2.0, 5.0].map(|x| x * 10f64.powi(k)));
+    steps.take_while(|x| *x <= most).last().unwrap_or(1.0)
+}
+
+/// The sides of a box, by their corners: of a rectangle itself.
+fn faces(low: &[f64], high: &[f64]) -> Vec<[[f64; 3]; 4]> {
+    let at = |k: usize, side: bool| {
+        if side { high.get(k) } else { low.get(k) }
+            .copied()
+            .unwrap_or(0.0)
+    };
+    let around = [(false, false), (true, false), (true, true), (false, true)];
+    let face = |fixed: usize, side: bool| {
+        let (i, j) = ((fixed + 1) % 3, (fixed + 2) % 3);
+        around.map(|(u, v)| {
+            let mut corner = [0.0; 3];
+            (corner[fixed], corner[i], corner[j]) = (at(fixed, side), at(i, u), at(j, v));
+            corner
+        })
+    };
+    match low.len() {
+        2 => vec![face(2, false)],
+        _ => (0..3)
+            .flat_map(|fixed| [face(fixed, false), face(fixed, true)])
+            .collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bands_are_drawn_as_wide_as_can_be_seen() {
+        assert_eq!(
+            [0.3, 1.0, 4.9, 79.0, 5e4].map(times),
+            [1.0, 1.0, 2.0, 50.0, 5e4]
+        );
+        let [corners] = faces(&[1.0, 2.0], &[3.0, 5.0]).try_into().unwrap();
+        assert_eq!(
+            corners,
+            [
+                [1.0, 2.0, 0.0],
+                [3.0, 2.0, 0.0],
+                [3.0, 5.0, 0.0],
+                [1.0, 5.0, 0.0]
+            ]
+        );
+        assert_eq!(faces(&[0.0; 3], &[1.0; 3]).len(), 6);
+    }
+}

@@ -1,0 +1,91 @@
+//! `krawl tolerance` as people and programs use it: pages, pictures and tables.
+
+use crate::krawl;
+use serde_json::Value;
+use std::fs;
+
+#[test]
+fn bands_are_drawn_and_measures_are_tabled() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let (json, csv, page, picture) = (at("t.json"), at("t.csv"), at("t.html"), at("t.svg"));
+    let (code, _, error) = krawl(&[
+        "tolerance",
+        "docs/examples/plate.toml",
+        "--default",
+        "0.1",
+        "--measure",
+        "C-E",
+        "--measure",
+        "angle B C D",
+        "--json",
+        &json,
+        "--csv",
+        &csv,
+        "--html",
+        &page,
+        "--svg",
+        &picture,
+    ]);
+    assert_eq!(code, Some(0), "{error}");
+    let result: Value = serde_json::from_str(&fs::read_to_string(&json).unwrap()).unwrap();
+    let rows = fs::read_to_string(&csv).unwrap();
+    let rows: Vec<Vec<&str>> = rows.lines().map(|row| row.split(',').collect()).collect();
+    assert_eq!(rows[0][..3], ["measure", "unit", "nominal"]);
+    assert_eq!(
+        rows[0][6..],
+        ["A-B", "B-C", "C-D", "D-E", "E-A", "A-C", "B-E"]
+    );
+    assert_eq!(rows.len(), 3);
+    for (row, measured) in rows[1..].iter().zip(result["measured"].as_array().unwrap()) {
+        assert_eq!(row[0].trim_matches('"'), measured["name"]);
+        let numbers: Vec<f64> = row[2..].iter().map(|x| x.parse().unwrap()).collect();
+        assert_eq!(Some(numbers[1]), measured["least"][0].as_f64());
+        assert_eq!(Some(numbers[2]), measured["greatest"][1].as_f64());
+        assert!(numbers[1] < numbers[0] && numbers[0] < numbers[2]);
+        for (effect, of_json) in numbers[4..]
+            .iter()
+            .zip(measured["effects"].as_array().unwrap())
+        {
+            assert!((effect - of_json.as_f64().unwrap()).abs() < 1e-5);
+        }
+    }
+    // A is where the coordinates begin; the four other points have bands, each drawn about its point, and D's is the tallest.
+    let picture = fs::read_to_string(&picture).unwrap();
+    let bands: Vec<Vec<f64>> = picture
+        .lines()
+        .filter(|line| line.contains("fill-opacity=\"0.08\""))
+        .map(|line| {
+            let path = line.split('"').nth(1).unwrap();
+            let numbers = path.split(|c: char| !c.is_ascii_digit() && c != '.');
+            numbers.filter_map(|x| x.parse().ok()).collect()
+        })
+        .collect();
+    assert_eq!(bands.len(), 4, "{picture}");
+    let height = |band: &[f64]| (band[1] - band[5]).abs();
+    let tallest = bands.iter().max_by(|a, b| height(a).total_cmp(&height(b)));
+    assert_eq!(tallest, Some(&bands[2]));
+    let html = fs::read_to_string(&page).unwrap();
+    let (code, shown, _) = krawl(&["show", &json, "--html", "-"]);
+    assert_eq!((code, &shown), (Some(0), &html));
+    for words in ["times as wide", "at worst from", "B-E 27 %"] {
+        assert!(html.contains(words), "{words}");
+    }
+}
+
+/// In space the band of a point is a box.
+#[test]
+fn bands_in_space_are_boxes() {
+    let (code, text, _) = krawl(&[
+        "tolerance",
+        "docs/examples/platform.toml",
+        "--default",
+        "0.1",
+        "--svg",
+        "-",
+        "--quiet",
+    ]);
+    assert_eq!(code, Some(0));
+    let sides = text.matches("fill-opacity=\"0.08\"").count();
+    assert!(sides > 0 && sides.is_multiple_of(6), "{sides}");
+}
