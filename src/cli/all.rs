@@ -9,6 +9,7 @@ use super::pictures::Pictures;
 use super::take::{Candidates, Take, Taken};
 use super::verify::check_cover;
 use super::{BAD_INPUT, CLOSED, INCOMPLETE, NOT_PROVED, STOPPED, input, interrupt};
+use krawl::blocks::Account;
 use krawl::complete::{Complete, Keep, Options, Progress, Status, Tested, Unserved, all};
 use krawl::constraint::Symmetry;
 use krawl::report::page::Page;
@@ -123,7 +124,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     arguments.take.check(file)?;
     let asked = input::asked(file, sketch, arguments.redundant_tolerance)?;
     let (problem, made, surplus) = match asked {
-        Asked::Surplus(surplus) => (surplus.problem.clone(), None, Some(surplus)),
+        Asked::Surplus(surplus) => (surplus.problem.clone(), Account::default(), Some(surplus)),
         Asked::Problem(read) => {
             let (problem, made) = *read;
             (problem, made, None)
@@ -239,7 +240,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     if !arguments.quiet && !elsewhere {
         let mut text = complete_to_table(&problem, &result);
         text += &measures.to_table("", figures());
-        let made = input::held_and_left_out(made.as_ref());
+        let made = input::held_and_left_out(&made);
         if !made.is_empty() {
             text +=
                 &format!("\nThe sketch was searched with as many equations as unknowns{made}.\n");

@@ -6,10 +6,9 @@ use super::pictures::Pictures;
 use super::take::check_format;
 use super::verify::check_written;
 use super::{BAD_INPUT, CLOSED, LIMIT, PASSES, STOPPED, input, interrupt, serve};
+use krawl::blocks::Account;
 use krawl::certificate::Writer;
-use krawl::edit::{
-    Asked, Astray, Decomposition, Drag, Edited, Ending, OpenError, Session, Setting,
-};
+use krawl::edit::{Asked, Astray, Drag, Edited, Ending, OpenError, Session, Setting};
 use krawl::import::Format;
 use krawl::problem::Problem;
 use krawl::remarks::moves;
@@ -187,10 +186,10 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             astray = edited.astray.as_ref().map(Astray::in_words);
             reason(&edited).map(str::to_owned)
         })? {
-            Some((whole, decomposition)) => {
+            Some((whole, found)) => {
                 led = carried(&settings, (&problem, &whole)).map_err(|e| in_file(&e))?;
                 // The whole is followed as it is; what it was made from is what the claim is about.
-                account = account.or(decomposition.map(|found| found.account));
+                account = account.or(Some(found));
                 problem = whole;
             }
             None => cert = None,
@@ -228,6 +227,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         edited.account = account;
         edited.switched_on.extend(astray);
     }
+    loaded.add_left_out(&mut edited.account, Some(&edited.points));
     let moved = session.moved();
 
     let (mut written, verdict) = match is_unwitnessed(&arguments.file, cert, &edited) {
@@ -298,10 +298,9 @@ pub(super) fn certified(
     file: &Path,
     problem: &Problem,
     stops: impl FnOnce(&mut Session) -> Option<String>,
-) -> Result<Option<(Problem, Option<Decomposition>)>, String> {
+) -> Result<Option<(Problem, Account)>, String> {
     let (whole, found) = input::provable(file, problem)?;
-    let is_left_out = |found: &Decomposition| !found.account.left_out.is_empty();
-    if !found.as_ref().is_some_and(is_left_out) {
+    if found.left_out.is_empty() {
         return Ok(Some((whole, found)));
     }
     let session = Session::open(problem);

@@ -221,7 +221,14 @@ fn read(arguments: &Arguments) -> Result<(Problem, Vec<Published>), String> {
     if is_toml && arguments.sketch.is_none() {
         return Problem::read_with_published(&arguments.file).map_err(|e| e.to_string());
     }
-    let problem = input::read(&arguments.file, arguments.sketch.as_deref())?;
+    let (problem, account) = input::whole(&arguments.file, arguments.sketch.as_deref())?;
+    let clause = account.clause();
+    if !clause.is_empty() {
+        output::complain(&format!(
+            "{}: all that is proved holds {clause}",
+            problem.name
+        ));
+    }
     Ok((problem, Vec::new()))
 }
 

@@ -1,12 +1,15 @@
 //! Reading problems from files and from standard input.
 
 use super::output;
-use krawl::blocks::MOST_POINTS;
+use krawl::blocks::{Account, MOST_POINTS};
 use krawl::complete::{Surplus, has_equations_to_spare};
+use krawl::constraint::fix_frame;
 use krawl::edit::{Decomposition, Setting, completed};
 use krawl::import::{self, Figure, Format, Imported};
+use krawl::interval::Interval;
 use krawl::problem::{MAX_FILE_SIZE, Problem};
 use krawl::system::Located;
+use std::borrow::Cow;
 use std::io::{self, Read};
 use std::path::Path;
 
@@ -61,36 +64,40 @@ fn standard_input() -> Result<String, String> {
 /// A problem of this file as certificates are about it, with as many equations as unknowns: of a sketch that is not so by
 /// itself, coordinates that nothing determines are held where it has them, and constraints that seem to follow from others
 /// are left out. Which these are comes back.
-pub fn provable(
-    file: &Path,
-    problem: &Problem,
-) -> Result<(Problem, Option<Decomposition>), String> {
+pub fn provable(file: &Path, problem: &Problem) -> Result<(Problem, Account), String> {
     if !is_sketch(file) && (!problem.is_absolute() || problem.check().is_ok()) {
-        return Ok((problem.clone(), None));
+        return Ok((problem.clone(), Account::default()));
     }
     let in_file = |error| format!("{}: {error}", file.display());
     let found = Decomposition::of(problem).map_err(in_file)?;
-    Ok((completed(problem).map_err(in_file)?, Some(found)))
+    Ok((completed(problem).map_err(in_file)?, found.account))
 }
 
 /// What was held and left out of a sketch that has not as many equations as unknowns, as the end of a sentence.
-pub fn held_and_left_out(found: Option<&Decomposition>) -> String {
-    match found.map(|found| found.account.clause()) {
-        Some(clause) if !clause.is_empty() => format!(", {clause}"),
+pub fn held_and_left_out(account: &Account) -> String {
+    match account.clause() {
+        clause if !clause.is_empty() => format!(", {clause}"),
         _ => String::new(),
     }
 }
 
 /// The problem of a file as sets of all solutions are about it: of a problem file as it is, of a sketch of another program as
 /// [`provable`] makes it.
-pub fn whole(
-    file: &Path,
-    sketch: Option<&str>,
-) -> Result<(Problem, Option<Decomposition>), String> {
-    match is_sketch(file) {
-        true => provable(file, &load(file, sketch)?.problem),
-        false => Ok((read(file, sketch)?, None)),
+pub fn whole(file: &Path, sketch: Option<&str>) -> Result<(Problem, Account), String> {
+    whole_of(file, &load(file, sketch)?)
+}
+
+/// The same of a file that was read.
+pub fn whole_of(file: &Path, loaded: &Loaded) -> Result<(Problem, Account), String> {
+    if is_sketch(file) {
+        return provable(file, &loaded.problem);
     }
+    if let Some(fault) = &loaded.fault {
+        return Err(fault.clone());
+    }
+    let mut account = Account::default();
+    loaded.add_left_out(&mut account, None);
+    Ok((loaded.problem.clone(), account))
 }
 
 /// What a set of all solutions is about.
@@ -98,7 +105,7 @@ pub enum Asked {
     /// More distances than are needed, and nothing else; or those of bonds and bond angles of a molecule.
     Surplus(Box<Surplus>),
     /// Anything else, and what was made of a sketch of another program for it. There may be more equations than unknowns.
-    Problem(Box<(Problem, Option<Decomposition>)>),
+    Problem(Box<(Problem, Account)>),
 }
 
 /// Reads what a set of all solutions is to be about.
@@ -113,17 +120,19 @@ pub fn asked(file: &Path, sketch: Option<&str>, tolerance: Option<f64>) -> Resul
             let problem = imported.problem;
             Ok(imported
                 .surplus
-                .map_or_else(|| of_problem((problem, None)), of_surplus))
+                .map_or_else(|| of_problem((problem, Account::default())), of_surplus))
         }
         None => {
             let loaded = load(file, sketch)?;
             let Some(fault) = loaded.fault else {
-                return Ok(of_problem((loaded.problem, None)));
+                return Ok(of_problem((loaded.problem, Account::default())));
             };
             let problem = loaded.problem.up_to_motions();
             match Surplus::of(&problem, tolerance) {
                 Some(surplus) => Ok(of_surplus(surplus)),
-                None if has_equations_to_spare(&problem) => Ok(of_problem((problem, None))),
+                None if has_equations_to_spare(&problem) => {
+                    Ok(of_problem((problem, Account::default())))
+                }
                 None => Err(fault),
             }
         }
@@ -294,6 +303,27 @@ pub fn unsupported(imported: &Imported) -> String {
 }
 
 impl Loaded {
+    /// The distances beside those that are searched or followed: of a molecule what was left out of it as it was read, of a problem file
+    /// without a frame of its own those that are more than it needs.
+    pub fn surplus(&self) -> Option<Cow<'_, Surplus>> {
+        match (&self.imported, &self.fault) {
+            (Some((imported, _)), _) => imported.surplus.as_ref().map(Cow::Borrowed),
+            (None, Some(_)) if !fix_frame(&self.problem) => {
+                Surplus::of(&self.problem.clone().up_to_motions(), None).map(Cow::Owned)
+            }
+            _ => None,
+        }
+    }
+
+    /// Adds to what a claim is proved of what was left out of a molecule as it was read: how the figure that is printed stands to it, or,
+    /// without one, that nothing is proved of it.
+    pub fn add_left_out(&self, account: &mut Account, figure: Option<&[[Interval; 3]]>) {
+        let imported = self.imported.as_ref();
+        if let Some(surplus) = imported.and_then(|(imported, _)| imported.surplus.as_ref()) {
+            surplus.add_to(account, figure);
+        }
+    }
+
     /// What is to be said where dimensions are set: see [`Imported::warnings`].
     pub fn warnings(&self, settings: &[Setting]) -> Vec<String> {
         let set: Vec<usize> = settings.iter().map(|setting| setting.index).collect();

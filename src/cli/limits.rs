@@ -53,11 +53,12 @@ pub fn run(arguments: &Arguments) -> u8 {
 fn try_run(arguments: &Arguments) -> Result<u8, String> {
     arguments.time.begin();
     let shown = arguments.file.display();
-    let problem = input::load(&arguments.file, arguments.sketch.as_deref())?.problem;
+    let loaded = input::load(&arguments.file, arguments.sketch.as_deref())?;
+    let problem = &loaded.problem;
     let only = arguments
         .only
         .iter()
-        .map(|name| Setting::find(&problem, name));
+        .map(|name| Setting::find(problem, name));
     let only = only
         .collect::<Result<Vec<_>, _>>()
         .map_err(|error| format!("{shown}: {error}"))?;
@@ -65,7 +66,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let pictures = arguments.pictures.places([&arguments.file])?;
     let mut control = interrupt::control();
     let mut session = match open(
-        &problem,
+        problem,
         &arguments.file,
         &arguments.left_out.options(),
         &mut control,
@@ -73,26 +74,29 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         Ok(session) => session,
         Err(code) => return Ok(code),
     };
-    let ranges: Vec<_> = match only.is_empty() {
+    let mut ranges: Vec<_> = match only.is_empty() {
         true => session.ranges(&mut control),
         false => only
             .iter()
             .map(|&index| session.range(index, &mut control))
             .collect(),
     };
+    for range in &mut ranges {
+        loaded.add_left_out(&mut range.account, None);
+    }
     let mut written = true;
     if let Some(json) = &json {
-        let value = ranges_to_value(&problem, &ranges, session.moved());
+        let value = ranges_to_value(problem, &ranges, session.moved());
         written &= json.write(&(value.to_string() + "\n"));
     }
     if !pictures.is_empty() {
-        let page = Page::from_result(&ranges_to_value(&problem, &ranges, session.moved()));
+        let page = Page::from_result(&ranges_to_value(problem, &ranges, session.moved()));
         written &= pictures.write(&page.map_err(|error| error.to_string())?);
     }
     let elsewhere = json == Some(Destination::StandardOutput) || pictures.use_standard_output();
     if !arguments.quiet && !elsewhere {
-        let drawn = drawn_in_words(&problem, &session);
-        written &= output::print(&(drawn + &ranges_to_table(&problem, &ranges, session.moved())));
+        let drawn = drawn_in_words(problem, &session);
+        written &= output::print(&(drawn + &ranges_to_table(problem, &ranges, session.moved())));
     }
     let is_known = |end: &End| !matches!(end, End::Unknown(..));
     let all = ranges

@@ -63,27 +63,31 @@ pub fn run(arguments: &Arguments) -> u8 {
 
 fn try_run(arguments: &Arguments) -> Result<u8, String> {
     arguments.time.begin();
-    let problem = input::load(&arguments.file, arguments.sketch.as_deref())?.problem;
+    let loaded = input::load(&arguments.file, arguments.sketch.as_deref())?;
+    let problem = &loaded.problem;
     // What can be measured is known before anything is followed.
-    let measures = arguments.measured.of_points(&problem)?;
+    let measures = arguments.measured.of_points(problem)?;
     let json = beside(&arguments.file, arguments.json.as_deref())?;
     let csv = beside(&arguments.file, arguments.csv.as_deref())?;
     let pictures = arguments.pictures.places([&arguments.file])?;
     let mut control = interrupt::control();
     let motion = Motion::of(
-        &problem,
+        problem,
         &arguments.free,
         arguments.measured.texts(),
         &Options::certified(),
         &mut control,
     );
-    let motion = match motion {
+    let mut motion = match motion {
         Err(_) if control.is_interrupted() => {
             output::complain("interrupted before anything was proved");
             return Ok(STOPPED);
         }
         motion => motion.map_err(|error| format!("{}: {error}", arguments.file.display()))?,
     };
+    for frame in &motion.frames {
+        loaded.add_left_out(&mut motion.account, Some(&frame.points));
+    }
     let mut written = true;
     if let Some(csv) = &csv {
         written &= csv.write(&motion_to_csv(&motion, &measures));

@@ -81,7 +81,8 @@ fn answer(session: &mut Session, loaded: &Loaded, line: &[u8]) -> Value {
         _ if !request.drag.is_empty() => match drags(session, &request) {
             Err(reason) => json!({"status": "error", "reason": reason}),
             Ok(drags) => {
-                let edited = session.drag(&drags, &mut Control::default());
+                let mut edited = session.drag(&drags, &mut Control::default());
+                loaded.add_left_out(&mut edited.account, Some(&edited.points));
                 let mut value = edit_to_value(session.problem(), &edited, session.moved());
                 let is_moved = edited.dragged.is_some_and(|dragged| dragged.legs > 0);
                 value["committed"] = json!(is_moved);
@@ -92,10 +93,11 @@ fn answer(session: &mut Session, loaded: &Loaded, line: &[u8]) -> Value {
         Ok(settings) if settings.is_empty() => figure_to_value(session),
         Ok(settings) => {
             let mut control = Control::default();
-            let edited = match request.probe {
+            let mut edited = match request.probe {
                 true => session.probe(&settings, &mut control),
                 false => session.edit_with(&settings, &mut control),
             };
+            loaded.add_left_out(&mut edited.account, Some(&edited.points));
             let mut value = edit_to_value(session.problem(), &edited, session.moved());
             value["warnings"] = loaded.warnings(&settings).into();
             value["committed"] = json!(!request.probe && edited.ending == Ending::Reached);

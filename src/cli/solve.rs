@@ -12,7 +12,7 @@ use crate::places::Each as _;
 use clap::ValueEnum;
 use krawl::blocks::{Figures, First as Nearest, clusters};
 use krawl::certificate::Writer;
-use krawl::complete::{Among, among};
+use krawl::complete::{Among, Surplus, Tested, among};
 use krawl::constraint::fix_frame;
 use krawl::edit::{Alone, alone};
 use krawl::problem::Problem;
@@ -20,8 +20,8 @@ use krawl::remarks::{Remark, in_words, moves, remarks};
 use krawl::report::page::Page;
 use krawl::report::{
     BlockRuns, Listed, ProgressLine, Run, alone_in_words, alone_to_value, among_in_words,
-    figures_to_summary, figures_to_table, figures_to_value, first_in_words, to_first_table,
-    to_no_first, to_short_table, to_summary, to_table,
+    figures_to_summary, figures_to_table, figures_to_value, first_in_words, part_in_words,
+    to_first_table, to_no_first, to_short_table, to_summary, to_table,
 };
 use krawl::track::{
     self, Control, EndKind, First, Limit, Options, Outcome, PathEnd, Progress, Status, Trace,
@@ -301,7 +301,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     arguments.check_count()?;
     // Whatever is wrong is said before anything runs.
     let problems = arguments.files.iter().map(|file| arguments.read(file));
-    let problems = problems.collect::<Result<Vec<(Problem, bool)>, String>>()?;
+    let problems = problems.collect::<Result<Vec<Asked>, String>>()?;
     let json = arguments
         .json
         .as_deref()
@@ -331,8 +331,12 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let (mut written, mut worst) = (true, CLOSED);
     let named = problems.into_iter().zip(&arguments.files);
     let (count, mut k) = (arguments.files.len(), 0);
-    for ((problem, is_by_blocks), file) in named {
-        let problem = &problem;
+    for (asked, file) in named {
+        let Asked {
+            problem,
+            is_by_blocks,
+            surplus,
+        } = &asked;
         let measures = arguments.measured.of(problem)?;
         let which = output::which_of((k, count), file);
         if !silent
@@ -342,7 +346,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             let words = moves.in_words(problem);
             written &= output::print(&format!("{}: {words}\n\n", problem.name));
         }
-        if is_by_blocks {
+        if *is_by_blocks {
             let found = arguments.by_blocks(problem);
             let (text, mut value, code, found) = match found {
                 Ok(found) => found,
@@ -405,6 +409,8 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             )?
         };
         written &= well;
+        let tested = surplus.as_ref().map(|surplus| surplus.test(&mut outcome));
+        let tested = tested.as_ref();
         let unbounded = Unbounded::of(&outcome.status);
         let reason = match &outcome.status {
             Status::Stopped(reason) => Some(&*reason.text),
@@ -414,6 +420,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         };
         if let Some(reason) = reason
             && arguments.can_be_cut(cancel)
+            && tested.is_none()
         {
             if problem.is_absolute()
                 && let Some((mut text, value, code, found)) =
@@ -422,7 +429,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
                 written &= arguments.take_of(&found, (problem, file));
                 if arguments.cert.is_some() {
                     // What the certificate is about.
-                    let whole = arguments.shown(problem, &outcome);
+                    let whole = arguments.shown(problem, &outcome, tested);
                     text +=
                         &format!("\nThe path of the whole, as far as it was followed:\n\n{whole}");
                 }
@@ -433,6 +440,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
                         outcome: &outcome,
                         trace: None,
                         samples: 0,
+                        tested,
                     };
                     let mut whole = run.to_value();
                     whole["by_blocks"] = value.clone();
@@ -521,6 +529,11 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             _ if arguments.first && arguments.mode == Mode::Float => STOPPED,
             // The path comes back, or ends, and has no such solution.
             _ if arguments.first => LIMIT,
+            _ if arguments.mode == Mode::Certified
+                && tested.is_some_and(|tested| !tested.is_decided()) =>
+            {
+                STOPPED
+            }
             (Status::Open(_), _) => OPEN,
             // A certificate that does not pass its check.
             (Status::Closed, CLOSED) => verdict.unwrap_or(CLOSED),
@@ -532,6 +545,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             outcome: &outcome,
             trace: wants_path.then_some(&trace),
             samples,
+            tested,
         };
         if shown {
             let page = Page::from_result(&run.to_value()).map_err(|error| error.to_string())?;
@@ -540,20 +554,20 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         if !silent {
             let gap = arguments.gap_before(k);
             let text = match (first, arguments.first) {
-                (Some(text), _) => text,
+                (Some(text), _) => text + &arguments.part_in_words(tested),
                 (None, true) if turns_at.is_some() => to_no_first(problem, turns_at),
                 (None, true) if arguments.mode == Mode::Float => format!(
                     "{}: which solution is reached without a fold, if any, is told by certified mode alone: leave out \
                      `--mode float`, or without `--first` see all that floats find ({})\n",
                     problem.name,
-                    to_summary(problem, &outcome).trim_end()
+                    to_summary(problem, &outcome, tested).trim_end()
                 ),
                 (None, true) => format!(
                     "{}: no solution without a fold: the path turns back before, or could not be followed that far ({})\n",
                     problem.name,
-                    to_summary(problem, &outcome).trim_end()
+                    to_summary(problem, &outcome, tested).trim_end()
                 ),
-                (None, false) => arguments.shown(problem, &outcome),
+                (None, false) => arguments.shown(problem, &outcome, tested),
             };
             let of = match arguments.mode {
                 Mode::Certified => "",
@@ -571,14 +585,15 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             written &= output::print(&format!("{gap}{whole}{text}{hints}"));
         }
         let alone = match outcome.status == Status::Closed && outcome.solutions.is_empty() {
-            true if !silent || json.is_some() => arguments.alone(problem),
+            true if (!silent || json.is_some()) && tested.is_none() => arguments.alone(problem),
             _ => Vec::new(),
         };
         if !silent {
             written &= output::print(&alone_in_words(&alone));
         }
         // What the path came to is out by now.
-        let among = arguments.among(problem, &outcome, !silent || json.is_some());
+        let is_told = (!silent || json.is_some()) && tested.is_none();
+        let among = arguments.among(problem, &outcome, is_told);
         if let Some(among) = among
             && !silent
             && !arguments.summary
@@ -601,6 +616,17 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         written &= json.write(&lines);
     }
     Ok(if written { worst } else { BAD_INPUT })
+}
+
+/// What is asked of a file.
+struct Asked {
+    /// What is followed.
+    problem: Problem,
+    /// Whether it is solved block by block from the start: a sketch of another program, or a problem in its own frame that has not as many
+    /// equations as unknowns, where nothing is asked for that a path of the whole has alone.
+    is_by_blocks: bool,
+    /// The distances beside those that are followed: of a figure without a frame that has more than it needs, or of a molecule.
+    surplus: Option<Surplus>,
 }
 
 /// A path with two ends of which neither says anything of the figures with t = 1.
@@ -738,23 +764,57 @@ impl Arguments {
         alone(problem, &options, &mut control)
     }
 
-    /// A file's problem, and whether it is solved block by block from the start: a sketch of another program, or a problem in its own
-    /// frame that has not as many equations as unknowns, where nothing is asked for that a path of the whole has alone.
-    fn read(&self, file: &Path) -> Result<(Problem, bool), String> {
+    /// What is asked of a file.
+    fn read(&self, file: &Path) -> Result<Asked, String> {
         let sketch = self.sketch.as_deref();
-        let may_be = self.mode == Mode::Certified && self.wants_path().is_none();
-        if !may_be {
-            return Ok((input::read(file, sketch)?, false));
+        let whole = |problem| Asked {
+            problem,
+            is_by_blocks: false,
+            surplus: None,
+        };
+        let is_whole = self.mode == Mode::Float || self.wants_path().is_some();
+        if is_whole && input::is_sketch(file) {
+            return input::read(file, sketch).map(whole);
         }
         let loaded = input::load(file, sketch)?;
-        match loaded.fault {
-            None => Ok((loaded.problem, input::is_sketch(file))),
-            Some(_) if fix_frame(&loaded.problem) => Ok((loaded.problem, true)),
-            Some(fault) if input::has_surplus(&loaded.problem.up_to_motions()) => Err(format!(
-                "{fault}; or see `krawl all`, which finds all figures that have as many as are needed, and tests the others"
-            )),
-            Some(fault) => Err(fault),
+        let is_in_its_frame = fix_frame(&loaded.problem);
+        if let Some(surplus) = loaded.surplus() {
+            let surplus = surplus
+                .into_owned()
+                .with_tolerance(self.left_out.redundant_tolerance);
+            return Ok(Asked {
+                problem: surplus.problem.clone(),
+                is_by_blocks: false,
+                surplus: Some(surplus),
+            });
         }
+        let Some(fault) = loaded.fault else {
+            return Ok(Asked {
+                is_by_blocks: input::is_sketch(file),
+                ..whole(loaded.problem)
+            });
+        };
+        if is_in_its_frame && !is_whole {
+            return Ok(Asked {
+                is_by_blocks: true,
+                ..whole(loaded.problem)
+            });
+        }
+        let advice = match is_in_its_frame {
+            true => "",
+            false if input::has_surplus(&loaded.problem.clone().up_to_motions()) => {
+                "; or see `krawl all`, which finds all figures that have as many as are needed, and tests the others"
+            }
+            false => {
+                "; `krawl edit` changes it as it is, with what nothing determines held, and `krawl motion` follows how it moves, if in one way"
+            }
+        };
+        Err(fault + advice)
+    }
+
+    /// What the first solution is proved of, where constraints were left out.
+    fn part_in_words(&self, tested: Option<&Tested>) -> String {
+        tested.map_or_else(String::new, |tested| part_in_words(tested) + "\n")
     }
 
     /// How many of all figures the path has, where that is wanted and costs little.
@@ -918,22 +978,23 @@ impl Arguments {
         let runs = all.runs.iter();
         match self.summary {
             true => {
-                let lines: String = runs.map(|(block, run)| to_summary(block, run)).collect();
+                let lines = runs.map(|(block, run)| to_summary(block, run, None));
+                let lines: String = lines.collect();
                 format!("{lines}{}: {}\n", all.problem.name, all.verdict())
             }
             false => {
-                let tables = runs.map(|(block, run)| self.shown(block, run) + "\n");
+                let tables = runs.map(|(block, run)| self.shown(block, run, None) + "\n");
                 let tables: String = tables.collect();
                 format!("{}\n{tables}{}", all.introduction(), all.to_table(self.all))
             }
         }
     }
 
-    fn shown(&self, problem: &Problem, outcome: &Outcome) -> String {
+    fn shown(&self, problem: &Problem, outcome: &Outcome, tested: Option<&Tested>) -> String {
         match (self.summary, self.all) {
-            (true, _) => to_summary(problem, outcome),
-            (false, true) => to_table(problem, outcome),
-            (false, false) => to_short_table(problem, outcome),
+            (true, _) => to_summary(problem, outcome, tested),
+            (false, true) => to_table(problem, outcome, tested),
+            (false, false) => to_short_table(problem, outcome, tested),
         }
     }
 }

@@ -121,13 +121,14 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
 /// Drives one dimension through a range.
 fn drive(arguments: &Arguments, vary: &str, ends: [&str; 2]) -> Result<u8, String> {
     let shown = arguments.file.display();
-    let problem = input::load(&arguments.file, arguments.sketch.as_deref())?.problem;
+    let loaded = input::load(&arguments.file, arguments.sketch.as_deref())?;
+    let problem = &loaded.problem;
     let in_file = |error: &dyn std::fmt::Display| format!("{shown}: {error}");
     let named = ends.each(|value| (vary, value));
-    let asked = Asked::of_dimensions(&problem, &named).map_err(|e| in_file(&e))?;
+    let asked = Asked::of_dimensions(problem, &named).map_err(|e| in_file(&e))?;
     Setting::check(&asked.problem, &asked.settings[..1]).map_err(|e| in_file(&e))?;
-    let measures = arguments.measured.of(&problem)?;
-    let as_turns = asked.in_words(&problem);
+    let measures = arguments.measured.of(problem)?;
+    let as_turns = asked.in_words(problem);
     let (mut problem, mut index) = (asked.problem, asked.settings[0].index);
     let [from, to] = ends.map(|value| value.parse().expect("it was just parsed"));
     let mut cert = arguments.cert.as_deref();
@@ -142,7 +143,7 @@ fn drive(arguments: &Arguments, vary: &str, ends: [&str; 2]) -> Result<u8, Strin
             reason(last).map(str::to_owned)
         })? {
             Some((whole, found)) => {
-                account = account.or(found.map(|found| found.account));
+                account = account.or(Some(found));
                 let setting = Setting::new(&problem, index, from.clone());
                 let setting = [setting.map_err(|e| in_file(&e))?];
                 let led = carried(&setting, (&problem, &whole));
@@ -176,6 +177,9 @@ fn drive(arguments: &Arguments, vary: &str, ends: [&str; 2]) -> Result<u8, Strin
     let mut sweep = session.sweep(index, (&from, &to), arguments.frames as usize, &mut control);
     if let (Some(account), true) = (account, cert.is_some()) {
         sweep.account = account;
+    }
+    for frame in &sweep.frames {
+        loaded.add_left_out(&mut sweep.account, Some(&frame.points));
     }
     let last = sweep.end.as_ref().unwrap_or(&sweep.approach);
     let (mut written, verdict) = match is_unwitnessed(&arguments.file, cert, last) {

@@ -110,6 +110,7 @@ pub(super) fn run(arguments: &Arguments, file: &Path) -> Result<u8, String> {
             break;
         }
         account.join(&edited.account);
+        loaded.add_left_out(&mut account, Some(&edited.points));
         frames.push((
             edited.dimensions.iter().map(|d| d.value).collect(),
             edited.points,

@@ -102,9 +102,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         study => study.map_err(in_file)?,
     };
     // What was left out of a sketch, and what is held, belongs to what is said.
-    if let Some(made) = made {
-        study.account = made.account;
-    }
+    study.account.join(&made);
     let mut written = true;
     if let Some(csv) = &csv {
         written &= csv.write(&tolerances_to_csv(&problem, &study));

@@ -1,10 +1,11 @@
 //! `krawl verify`: checks a certificate and prints the theorem that it proves.
 
 use super::{BAD_INPUT, CLOSED, INCOMPLETE, NOT_PROVED, REFUTED, input, output};
+use krawl::blocks::Account;
 use krawl::certificate::complex::{ComplexFlaw, verify_complex_set};
 use krawl::certificate::cover::{CoverVerdict, verify_cover_while};
 use krawl::certificate::{Compared, Contents, Outcome, Settings, Stage, contents, verify};
-use krawl::edit::{Decomposition, with_turns_of};
+use krawl::edit::with_turns_of;
 use krawl::problem::Problem;
 use krawl::report::{ProgressLine, complex_set_theorem, cover_theorem, theorem};
 use std::fs::File;
@@ -73,23 +74,16 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let file = File::open(&arguments.cert).map_err(|e| format!("{name}: cannot be read: {e}"))?;
     let opened = contents(BufReader::new(file)).map_err(|error| format!("{name}: {error}"));
     let (contents, file) = opened?;
-    let read = |path: &PathBuf| {
-        let sketch = arguments.sketch.as_deref();
-        if contents != Contents::Path {
-            return input::whole(path, sketch);
-        }
-        let problem = input::load(path, sketch)?.problem;
-        input::provable(path, &problem)
-    };
-    let problem = arguments.file.as_ref().map(read).transpose()?;
-    let (problem, found) = problem.unzip();
-    let found = found.flatten();
+    let file_of = arguments.file.as_ref();
+    let of_file = file_of.map(|path| of_file(path, arguments.sketch.as_deref(), contents));
+    let of_file = of_file.transpose()?;
+    let of_file = of_file.as_deref();
     match contents {
         Contents::Cover => {
-            return verify_the_cover(arguments, file, problem.as_ref(), found.as_ref());
+            return verify_the_cover(arguments, file, of_file);
         }
         Contents::ComplexSet => {
-            return verify_the_set(arguments, file, problem.as_ref(), found.as_ref());
+            return verify_the_set(arguments, file, of_file);
         }
         Contents::Path => {}
     }
@@ -102,20 +96,19 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let verdict = verify(file, &settings, &mut show);
     line.clear();
     let verdict = verdict.map_err(|error| format!("{name}: {error}"))?;
-    let is_it = problem.as_ref().map(|problem| verdict.is_about(problem));
+    let (is_it, found) = compare(of_file, |problem| verdict.is_about(problem));
     // What an edit led beyond 0 or 180 degrees.
-    let as_turns = problem.as_ref().filter(|_| is_it == Some(false));
-    let as_turns = as_turns.map(|problem| with_turns_of(problem, &verdict.problem));
-    let is_turned = as_turns.is_some_and(|problem| verdict.is_about(&problem));
-    let same = is_it != Some(false) || is_turned;
+    let turned = |problem: &Problem| verdict.is_about(&with_turns_of(problem, &verdict.problem));
+    let is_turned = !is_it && compare(of_file, turned).0;
+    let same = is_it || is_turned;
     let mut text = theorem(&verdict, clock.elapsed());
     if let Some(file) = &arguments.file {
         text += &match same {
             true if is_turned => {
-                about(file, found.as_ref())
+                about(file, &found)
                     + "Angles of it that were led beyond 0 or 180 degrees are `turns` in the certificate, in the sense in which they are drawn.\n"
             }
-            true => about(file, found.as_ref()),
+            true => about(file, &found),
             false => format!(
                 "REFUTED: the problem is not the one in {}.\n",
                 file.display()
@@ -134,8 +127,49 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     })
 }
 
+/// What a file may stand for in a certificate, each with what was left out and held for it.
+type OfFile<'a> = Option<&'a [(Problem, Account)]>;
+
+/// A file as certificates are about it: of more distances than are needed with those that are, or, where a path is followed in the coordinates of
+/// the file, with what is held.
+fn of_file(
+    path: &Path,
+    sketch: Option<&str>,
+    contents: Contents,
+) -> Result<Vec<(Problem, Account)>, String> {
+    let loaded = input::load(path, sketch)?;
+    let own = match contents {
+        Contents::Path => input::provable(path, &loaded.problem).map(|(problem, mut account)| {
+            loaded.add_left_out(&mut account, None);
+            (problem, account)
+        }),
+        _ => input::whole_of(path, &loaded),
+    };
+    let without = loaded.surplus().map(|surplus| {
+        let mut account = Account::default();
+        surplus.add_to(&mut account, None);
+        (surplus.problem.clone(), account)
+    });
+    match (own, without) {
+        (Ok(own), without) => Ok(std::iter::once(own).chain(without).collect()),
+        (Err(_), Some(without)) => Ok(vec![without]),
+        (Err(error), None) => Err(error),
+    }
+}
+
+/// Whether a certificate is about a file, as which of what it may stand for; without a file it is.
+fn compare(of_file: OfFile, is_about: impl Fn(&Problem) -> bool) -> (bool, Account) {
+    let Some(of_file) = of_file else {
+        return (true, Account::default());
+    };
+    match of_file.iter().find(|(problem, _)| is_about(problem)) {
+        Some((_, account)) => (true, account.clone()),
+        None => (false, Account::default()),
+    }
+}
+
 /// That the problem of a certificate is that of a file, what was compared, and what was made of that.
-fn about(file: &Path, found: Option<&Decomposition>) -> String {
+fn about(file: &Path, found: &Account) -> String {
     format!(
         "The problem is the one in {}: the points, where the sketch has them, all constraints and the way from the sketch \
          to them are the same, exactly{}.\n",
@@ -150,7 +184,7 @@ fn print_with_problem(
     arguments: &Arguments,
     mut text: String,
     (same, compared): (bool, Compared),
-    found: Option<&Decomposition>,
+    found: &Account,
 ) -> bool {
     if let Some(file) = &arguments.file {
         let (what, which) = match compared {
@@ -188,8 +222,7 @@ fn print_with_problem(
 fn verify_the_set(
     arguments: &Arguments,
     mut file: impl Read,
-    problem: Option<&Problem>,
-    found: Option<&Decomposition>,
+    of_file: OfFile,
 ) -> Result<u8, String> {
     let name = arguments.cert.display();
     let mut bytes = Vec::new();
@@ -199,8 +232,8 @@ fn verify_the_set(
     let verdict = super::in_pool(arguments.threads, || verify_complex_set(&bytes))?;
     let verdict = verdict.map_err(|error| format!("{name}: {error}"))?;
     let text = complex_set_theorem(&verdict, clock.elapsed());
-    let same = problem.is_none_or(|problem| verdict.is_about(problem));
-    if !print_with_problem(arguments, text, (same, verdict.compared()), found) {
+    let (same, found) = compare(of_file, |problem| verdict.is_about(problem));
+    if !print_with_problem(arguments, text, (same, verdict.compared()), &found) {
         return Ok(BAD_INPUT);
     }
     Ok(match verdict.flaw {
@@ -215,8 +248,7 @@ fn verify_the_set(
 fn verify_the_cover(
     arguments: &Arguments,
     mut file: impl Read,
-    problem: Option<&Problem>,
-    found: Option<&Decomposition>,
+    of_file: OfFile,
 ) -> Result<u8, String> {
     let name = arguments.cert.display();
     let mut bytes = Vec::new();
@@ -226,8 +258,8 @@ fn verify_the_cover(
     let verdict = check_cover(&bytes, arguments.threads, arguments.quiet, || true);
     let verdict = verdict.map_err(|error| format!("{name}: {error}"))?;
     let text = cover_theorem(&verdict, clock.elapsed());
-    let same = problem.is_none_or(|problem| verdict.is_about(problem));
-    if !print_with_problem(arguments, text, (same, verdict.compared()), found) {
+    let (same, found) = compare(of_file, |problem| verdict.is_about(problem));
+    if !print_with_problem(arguments, text, (same, verdict.compared()), &found) {
         return Ok(BAD_INPUT);
     }
     Ok(match verdict.proves_all() {

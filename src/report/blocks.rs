@@ -141,6 +141,7 @@ impl BlockRuns<'_> {
             outcome,
             trace: None,
             samples: 0,
+            tested: None,
         };
         let mut value = run(self.problem, whole).to_value();
         let blocks: Vec<Value> = self

@@ -166,7 +166,7 @@ fn figure(result: &Complete, index: usize) -> &[LeftOut] {
 
 /// What came of the figures that have the constraints used.
 #[derive(serde::Serialize)]
-struct Counts<'a> {
+pub(super) struct Counts<'a> {
     used: usize,
     of: usize,
     found: Option<u64>,
@@ -180,7 +180,7 @@ struct Counts<'a> {
 }
 
 impl<'a> Counts<'a> {
-    fn new(tested: &'a Tested) -> Self {
+    pub(super) fn new(tested: &'a Tested) -> Self {
         Counts {
             used: tested.used,
             of: tested.all,
@@ -509,8 +509,8 @@ fn without_sides(problem: &Problem, result: &Complete) -> String {
     }
 }
 
-/// How the figures that were found stand to what was left out of the search, as sentences behind another one.
-fn tested_in_words(tested: &Tested) -> String {
+/// How the figures that were found stand to what was left out, as sentences behind another one.
+pub(super) fn tested_in_words(tested: &Tested) -> String {
     let left_out = tested.left_out.len();
     let others = match left_out {
         1 => tested.left_out[0].clone(),
@@ -541,34 +541,26 @@ fn tested_in_words(tested: &Tested) -> String {
             tested.missed
         ));
     }
-    if tested.undecided > 0 {
-        parts.push(format!(
-            "of {} it is not decided whether {} {others}",
-            tested.undecided,
-            if tested.undecided == 1 {
-                "it meets"
-            } else {
-                "they meet"
-            }
-        ));
-    }
     let mut text = String::new();
     if left_out > 0 && !parts.is_empty() {
         text += &format!(" Of these {}, proved.", parts.join("; "));
+    }
+    if left_out > 0 && tested.undecided > 0 {
+        text += &match tested.undecided {
+            1 => format!(" Of one it is not decided whether it meets {others}."),
+            n => format!(" Of {n} it is not decided whether they meet {others}."),
+        };
     }
     let looked_at = (tested.met + tested.missed + tested.undecided) as u64;
     if left_out > 0 && tested.found.is_none_or(|found| found > looked_at) {
         text += " The others were not tested, and may be no solutions.";
     }
     if left_out > 0 {
-        text += &format!(
-            " Left out of the search: {}.",
-            list(&tested.left_out, LISTED)
-        );
+        text += &format!(" Left out: {}.", list(&tested.left_out, LISTED));
     }
     if !tested.added.is_empty() {
         text += &format!(
-            " Beside these the search holds {}: figures in which that is otherwise are not among these.",
+            " Beside these it holds {}: figures in which that is otherwise are not among these.",
             list(&tested.added, LISTED)
         );
     }

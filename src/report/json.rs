@@ -1,11 +1,12 @@
 //! Results for programs (docs/using/programs.md, docs/schema/result.schema.json).
 
+use super::complete::Counts;
 use super::drawing::{Drawing, names};
 use super::edit::alone_to_value;
 use super::marks::Marks;
 use super::objects::Objects;
 use super::table::verdict;
-use crate::complete::Among;
+use crate::complete::{Among, Tested};
 use crate::edit::Alone;
 use crate::interval::Interval;
 use crate::places::Each as _;
@@ -32,6 +33,8 @@ pub struct Run<'a> {
     pub trace: Option<&'a Trace>,
     /// The number of figures along the path that are written.
     pub samples: usize,
+    /// Where there are more distances than unknowns, what came of those that were left out.
+    pub tested: Option<&'a Tested>,
 }
 
 impl Run<'_> {
@@ -91,6 +94,8 @@ struct Document<'a> {
     reason: Option<&'a str>,
     stopped_kind: Option<&'static str>,
     verdict: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    tested: Option<Counts<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     ends: Option<Vec<End<'a>>>,
     orientations: Vec<WrittenSet<'a>>,
@@ -183,6 +188,7 @@ impl<'a> Document<'a> {
             outcome,
             trace,
             samples,
+            tested,
         } = *run;
         let (status, stop) = match &outcome.status {
             Status::Closed => ("closed", None),
@@ -206,7 +212,8 @@ impl<'a> Document<'a> {
             status,
             reason: stop.map(|stop| stop.text.as_str()),
             stopped_kind: stop.map(|stop| stop.kind.name()),
-            verdict: verdict(problem, outcome),
+            verdict: verdict(problem, outcome, tested),
+            tested: tested.map(Counts::new),
             ends: ends(problem, &outcome.status),
             solutions: outcome
                 .solutions

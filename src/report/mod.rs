@@ -58,7 +58,7 @@ pub use progress::ProgressLine;
 pub use sweep::{
     frames_to_csv, ranges_to_table, ranges_to_value, sweep_in_words, sweep_to_csv, sweep_to_value,
 };
-pub use table::{to_first_table, to_no_first, to_short_table, to_summary, to_table};
+pub use table::{part_in_words, to_first_table, to_no_first, to_short_table, to_summary, to_table};
 pub use theorem::theorem;
 pub use tolerance::{
     tolerances_in_words, tolerances_to_csv, tolerances_to_table, tolerances_to_value,
@@ -120,6 +120,7 @@ mod tests {
             outcome,
             trace: None,
             samples: 0,
+            tested: None,
         };
         assert_eq!(
             serde_json::from_str::<Value>(&run.to_json()).unwrap(),
@@ -176,7 +177,7 @@ mod tests {
 
     #[test]
     fn tables_claim_what_was_proved() {
-        let closed = to_table(&triangle(), &outcome(Mode::Certified, Status::Closed));
+        let closed = to_table(&triangle(), &outcome(Mode::Certified, Status::Closed), None);
         assert!(closed.starts_with(
             "triangle: Closed, proved: the 2 solutions listed are exactly the points of the path \
              through the sketch with t = 1. No two of them are congruent, even up to reflection.\n"
@@ -186,7 +187,7 @@ mod tests {
             "{closed}"
         );
         assert!(closed.contains("steps               458\n"));
-        let observed = to_table(&triangle(), &outcome(Mode::Float, Status::Closed));
+        let observed = to_table(&triangle(), &outcome(Mode::Float, Status::Closed), None);
         assert!(observed.contains("Closed, observed") && observed.contains("not a proof"));
         assert!(!observed.contains("proved"));
         for mode in [Mode::Certified, Mode::Float] {
@@ -196,6 +197,7 @@ mod tests {
                     mode,
                     Status::Stopped(Stop::new(StopKind::NoStep, "too hard.")),
                 ),
+                None,
             );
             assert!(stopped.contains("Stopped: too hard. "), "{stopped}");
             assert!(stopped.contains("there may be more"));

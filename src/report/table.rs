@@ -1,7 +1,9 @@
 //! Results for people.
 
 use super::certain_digits;
+use super::complete::tested_in_words;
 use super::marks::Marks;
+use crate::complete::Tested;
 use crate::constraint::{Symmetry, symmetry};
 use crate::interval::{Interval, hull};
 use crate::problem::{Problem, Shape, list};
@@ -10,9 +12,9 @@ use crate::track::{EndKind, Mode, Outcome, PathEnd, Solution, Space, Status};
 use std::fmt::{self, Write};
 
 /// The results as a text of several lines: what was found and what that means, the solutions,
-/// the numbers of the run.
-pub fn to_table(problem: &Problem, outcome: &Outcome) -> String {
-    table(problem, outcome, usize::MAX)
+/// the numbers of the run. `tested`: where there are more distances than unknowns, what came of those that were left out.
+pub fn to_table(problem: &Problem, outcome: &Outcome, tested: Option<&Tested>) -> String {
+    table(problem, (outcome, tested), usize::MAX)
 }
 
 /// Solutions are listed as long as they fit in so many lines.
@@ -21,18 +23,18 @@ const LINES: usize = 120;
 const LINES_OF_MANY: usize = 45;
 
 /// A run as [`to_table`] has it, but with the first solutions only where there are too many for a few screens.
-pub fn to_short_table(problem: &Problem, outcome: &Outcome) -> String {
+pub fn to_short_table(problem: &Problem, outcome: &Outcome, tested: Option<&Tested>) -> String {
     let each = problem.points.len() + 3;
     let most = match each * outcome.solutions.len() <= LINES {
         true => usize::MAX,
         false => (LINES_OF_MANY / each).max(1),
     };
-    table(problem, outcome, most)
+    table(problem, (outcome, tested), most)
 }
 
 /// The result in one line: name, how it ended, solutions, classes, seconds, and the reason where the
-/// run stopped.
-pub fn to_summary(problem: &Problem, outcome: &Outcome) -> String {
+/// run stopped, or how many constraints were left out.
+pub fn to_summary(problem: &Problem, outcome: &Outcome, tested: Option<&Tested>) -> String {
     let status = match (&outcome.status, outcome.mode) {
         (Status::Closed, Mode::Certified) => "closed, proved",
         (Status::Closed, Mode::Float) => "closed, observed",
@@ -52,6 +54,12 @@ pub fn to_summary(problem: &Problem, outcome: &Outcome) -> String {
     );
     if straight.count() > 0 {
         line += "   one reached without a fold";
+    }
+    if let Some(tested) = tested {
+        line += &format!("   in {} of {} {}", tested.used, tested.all, tested.what);
+        if tested.missed > 0 {
+            line += &format!(", {} struck out", tested.missed);
+        }
     }
     if let Status::Stopped(reason) = &outcome.status {
         line += &format!("   {}", without_stop(reason));
@@ -91,16 +99,26 @@ pub fn to_no_first(problem: &Problem, turns_at: Option<(f64, f64)>) -> String {
     )
 }
 
-fn table(problem: &Problem, outcome: &Outcome, most: usize) -> String {
+/// A run, and where there are more distances than unknowns what came of those that were left out.
+type Ran<'a> = (&'a Outcome, Option<&'a Tested>);
+
+fn table(problem: &Problem, ran: Ran, most: usize) -> String {
     let mut out = String::new();
     // Writing to a string cannot fail.
-    let _ = write_table(&mut out, problem, outcome, most);
+    let _ = write_table(&mut out, problem, ran, most);
     out
 }
 
-fn write_table(out: &mut String, problem: &Problem, outcome: &Outcome, most: usize) -> fmt::Result {
-    writeln!(out, "{}: {}", problem.name, verdict(problem, outcome))?;
-    if outcome.status == Status::Closed && outcome.solutions.is_empty() {
+fn write_table(out: &mut String, problem: &Problem, ran: Ran, most: usize) -> fmt::Result {
+    let (outcome, tested) = ran;
+    writeln!(
+        out,
+        "{}: {}",
+        problem.name,
+        verdict(problem, outcome, tested)
+    )?;
+    let found = tested.and_then(|tested| tested.found).unwrap_or(0);
+    if outcome.status == Status::Closed && outcome.solutions.is_empty() && found == 0 {
         match problem.impossible_triangle() {
             Some(message) => writeln!(out, "There can be none: {message}.")?,
             None => writeln!(out, "{NOTHING_FOUND}")?,
@@ -167,7 +185,7 @@ fn degenerate(outcome: &Outcome) -> String {
 }
 
 /// What was found, in words that claim no more than was proved.
-pub(super) fn verdict(problem: &Problem, outcome: &Outcome) -> String {
+pub(super) fn verdict(problem: &Problem, outcome: &Outcome, tested: Option<&Tested>) -> String {
     let count = outcome.solutions.len();
     let different = match (count, classes(outcome), symmetry(problem)) {
         // Constraints that say where the figure is leave nothing to be told of congruence.
@@ -180,6 +198,9 @@ pub(super) fn verdict(problem: &Problem, outcome: &Outcome) -> String {
         (_, c, _) => format!(" Up to congruence and reflection they are {c}."),
     };
     let different = different + &degenerate(outcome);
+    if let Some(tested) = tested {
+        return verdict_of_a_part(outcome, tested, &different);
+    }
     match (outcome.mode, &outcome.status) {
         (Mode::Certified, Status::Closed) => {
             let text = match count {
@@ -195,22 +216,7 @@ pub(super) fn verdict(problem: &Problem, outcome: &Outcome) -> String {
             format!("Closed, proved: {text}.{different}")
         }
         (mode, Status::Open(ends)) => {
-            let place = |end: &PathEnd| {
-                let t = 0.5 * (end.t.0 + end.t.1);
-                // No zero with a sign.
-                let t = if t.abs() < 5e-7 { 0.0 } else { t };
-                let reason = without_stop(&end.reason);
-                match end.kind {
-                    // What happens there happens somewhat farther on.
-                    EndKind::Infinite => format!("followed to t = {t:.6}, {reason}"),
-                    _ => format!("at t = {t:.6}, {reason}"),
-                }
-            };
-            let both = format!(
-                "\n  One end: {}.\n  The other: {}.",
-                place(&ends[0]),
-                place(&ends[1])
-            );
+            let both = both_ends(ends);
             let text = match (mode, count) {
                 (Mode::Float, n) => {
                     return format!(
@@ -257,6 +263,74 @@ pub(super) fn verdict(problem: &Problem, outcome: &Outcome) -> String {
              there may be more.{different}",
             without_stop(reason),
             solutions(count)
+        ),
+    }
+}
+
+/// Where and why a path ends, both ways.
+fn both_ends(ends: &[PathEnd; 2]) -> String {
+    let place = |end: &PathEnd| {
+        let t = 0.5 * (end.t.0 + end.t.1);
+        // No zero with a sign.
+        let t = if t.abs() < 5e-7 { 0.0 } else { t };
+        let reason = without_stop(&end.reason);
+        match end.kind {
+            // What happens there happens somewhat farther on.
+            EndKind::Infinite => format!("followed to t = {t:.6}, {reason}"),
+            _ => format!("at t = {t:.6}, {reason}"),
+        }
+    };
+    format!(
+        "\n  One end: {}.\n  The other: {}.",
+        place(&ends[0]),
+        place(&ends[1])
+    )
+}
+
+/// Which constraints are used of those that there are.
+fn used_in_words(tested: &Tested) -> String {
+    match tested.all == tested.used {
+        true => format!("the {} {} that are used", tested.used, tested.what),
+        false => format!("{} of the {} {}", tested.used, tested.all, tested.what),
+    }
+}
+
+/// What a path was followed with, where constraints were left out, and how its figures stand to these.
+pub fn part_in_words(tested: &Tested) -> String {
+    format!(
+        "Followed with {}.{}",
+        used_in_words(tested),
+        tested_in_words(tested)
+    )
+}
+
+/// What was found where a part of the constraints was followed, and how the figures that have these stand to the others.
+fn verdict_of_a_part(outcome: &Outcome, tested: &Tested, different: &str) -> String {
+    let path = format!(
+        "with {} the path through the sketch has",
+        used_in_words(tested)
+    );
+    let points = match tested.found {
+        Some(0) => "no point with t = 1".to_owned(),
+        Some(1) => "exactly one point with t = 1".to_owned(),
+        n => format!("exactly {} points with t = 1", n.unwrap_or(u64::MAX)),
+    };
+    let others = tested_in_words(tested);
+    let proved = match outcome.mode {
+        Mode::Certified => "proved",
+        Mode::Float => "observed (floating-point tracking, not a proof)",
+    };
+    match &outcome.status {
+        Status::Closed => format!("Closed, {proved}: {path} {points}.{others}{different}"),
+        Status::Open(ends) => format!(
+            "Open, {proved}: between the two places below, {path} {points}. It seems to end at both, and was not followed \
+             beyond.{others}{different}{}",
+            both_ends(ends)
+        ),
+        Status::Stopped(reason) => format!(
+            "Stopped: {}. Up to there {path} {}, {proved}; there may be more.{others}{different}",
+            without_stop(reason),
+            points.replace("exactly ", "")
         ),
     }
 }

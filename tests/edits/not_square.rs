@@ -5,6 +5,7 @@ use krawl::blocks::Verdict;
 use krawl::edit::{End, Ending, Session, Setting};
 use krawl::problem::Problem;
 use krawl::track::Control;
+use serde_json::Value;
 use std::fs;
 
 /// What a verb prints of a problem, and its exit code.
@@ -70,7 +71,7 @@ fn a_figure_that_moves_says_what_is_held() {
 
 /// Up to rigid motions nothing is held for it: such problems are refused as before, and where `all` has an answer it is named.
 #[test]
-fn figures_up_to_motions_are_refused_with_the_verb_that_takes_them() {
+fn figures_up_to_motions_that_miss_a_distance_are_struck_out() {
     let braced = r#"name = "braced"
 dimension = 2
 [points]
@@ -81,12 +82,47 @@ d = [0, 3.1]
 [constraints]
 distances = [["a","b",4],["b","c",3],["c","d",4],["d","a",3],["a","c",5],["b","d",5]]
 "#;
-    let (text, code) = run("solve", braced, &[]);
-    assert_eq!(code, 2, "{text}");
+    let (text, code) = run("solve", braced, &["--json", "-"]);
+    assert_eq!(code, 0, "{text}");
+    let result: Value = serde_json::from_str(text.lines().next().unwrap()).unwrap();
+    let tested = &result["tested"];
+    assert_eq!(tested["left_out"], serde_json::json!(["b-d"]));
+    let number = |key: &str| tested[key].as_u64().unwrap();
+    assert!(number("missed") > 0 && number("met") > 0, "{tested}");
+    assert_eq!(number("found"), number("met") + number("missed"));
+    assert!(tested["missed_by"].as_f64().unwrap() > 0.1);
+    let verdict = result["verdict"].as_str().unwrap();
     assert!(
-        text.contains("1 is too many") && text.contains("krawl all"),
-        "{text}"
+        verdict.starts_with("Closed, proved: with 5 of the 6 constraints the path"),
+        "{verdict}"
     );
+    assert!(
+        verdict.contains("meet b-d within") && verdict.contains("are no solutions, proved"),
+        "{verdict}"
+    );
+    // What is listed is the rectangle, either way round.
+    let listed = result["solutions"].as_array().unwrap();
+    assert_eq!(listed.len() as u64, number("met"));
+    let middle = |solution: &Value, name: &str, axis: usize| {
+        let bounds = &solution["points"][name][axis];
+        0.5 * (bounds[0].as_f64().unwrap() + bounds[1].as_f64().unwrap())
+    };
+    for solution in listed {
+        let apart = |a: &str, b: &str| {
+            let along = |axis| middle(solution, a, axis) - middle(solution, b, axis);
+            along(0).hypot(along(1))
+        };
+        for (a, b, length) in [
+            ("a", "b", 4.0),
+            ("b", "c", 3.0),
+            ("a", "c", 5.0),
+            ("b", "d", 5.0),
+        ] {
+            assert!((apart(a, b) - length).abs() < 1e-12);
+        }
+        let other = solution["mirror_of"].as_u64();
+        assert!(other.is_none_or(|other| (other as usize) < listed.len()));
+    }
     let (text, code) = run(
         "solve",
         &braced.replace(",[\"a\",\"c\",5],[\"b\",\"d\",5]", ""),
@@ -94,9 +130,94 @@ distances = [["a","b",4],["b","c",3],["c","d",4],["d","a",3],["a","c",5],["b","d
     );
     assert_eq!(code, 2, "{text}");
     assert!(
-        text.contains("1 is missing") && !text.contains("krawl all"),
+        text.contains("1 is missing") && text.contains("krawl motion"),
         "{text}"
     );
+}
+
+/// A certificate is about the constraints used, and says so; that of the whole set too.
+#[test]
+fn certificates_of_figures_with_a_distance_too_many_are_about_their_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let (file, proof) = (at("braced.toml"), at("proof.krawl"));
+    let text = "dimension = 2\n[points]\na = [0, 0]\nb = [4, 0.1]\nc = [4.1, 3]\nd = [0, 3.1]\n[constraints]\n\
+                distances = [[\"a\",\"b\",4],[\"b\",\"c\",3],[\"c\",\"d\",4],[\"d\",\"a\",3],[\"a\",\"c\",5],[\"b\",\"d\",5]]\n";
+    fs::write(&file, text).unwrap();
+    let krawl = |arguments: &[&str]| {
+        let output = Command::new(env!("CARGO_BIN_EXE_krawl"))
+            .args(arguments)
+            .output()
+            .unwrap();
+        (
+            output.status.code(),
+            String::from_utf8(output.stdout).unwrap(),
+        )
+    };
+    for verb in ["solve", "all"] {
+        assert_eq!(krawl(&[verb, &file, "--cert", &proof]).0, Some(0), "{verb}");
+        let (code, text) = krawl(&["verify", &proof, &file]);
+        assert_eq!(code, Some(0), "{verb}: {text}");
+        assert!(
+            text.contains("`b-d` was left out, and nothing is proved of it"),
+            "{verb}: {text}"
+        );
+    }
+    fs::write(&file, text.replace("\"c\",5]", "\"c\",5.01]")).unwrap();
+    assert_eq!(krawl(&["verify", &proof, &file]).0, Some(1));
+}
+
+/// Of a molecule as many distances are used as are needed: every verb says what was left out, and how what it prints stands to that.
+#[test]
+fn what_was_left_out_of_a_molecule_is_said_by_every_verb() {
+    let folder = tempfile::tempdir().unwrap();
+    let proof = folder.path().join("proof.krawl");
+    let proof = proof.to_str().unwrap();
+    let norbornane = "tests/data/norbornane.sdf";
+    let left_out = "`C3-C5`, `C1-C3`, `C1-C5` and `C2-C4` were left out";
+    let unseen = format!("{left_out}, and nothing is proved of them");
+    let (set, vary) = (
+        "C1-C2=1.5361",
+        ["--vary", "C1-C2", "--from", "1.536", "--to", "1.537"],
+    );
+    let ways: [(&[&str], &str); 7] = [
+        (
+            &["solve", norbornane],
+            "with 15 of the 19 constraints the path through the sketch has exactly",
+        ),
+        (
+            &["solve", norbornane, "--first"],
+            "Left out: C3-C5, C1-C3, C1-C5, C2-C4",
+        ),
+        (
+            &["edit", norbornane, "--set", set],
+            "in the 15 equations used",
+        ),
+        (&["limits", norbornane, "--only", "C1-C2"], &unseen),
+        (
+            &[&["sweep", norbornane], &vary[..], &["--frames", "3"]].concat(),
+            "was left out and is missed by at least",
+        ),
+        (&["tolerance", norbornane, "--default", "1e-4"], &unseen),
+        (
+            &["edit", norbornane, "--set", set, "--cert", proof],
+            "in the 15 equations used",
+        ),
+    ];
+    for (arguments, words) in ways {
+        let output = Command::new(env!("CARGO_BIN_EXE_krawl"))
+            .args(arguments)
+            .output()
+            .unwrap();
+        let text = String::from_utf8(output.stdout).unwrap();
+        assert!(text.contains(words), "{arguments:?}: {text}");
+    }
+    let output = Command::new(env!("CARGO_BIN_EXE_krawl"))
+        .args(["verify", proof, norbornane])
+        .output()
+        .unwrap();
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(text.contains(&unseen), "{text}");
 }
 
 /// A toggle clamp whose handle cannot open its arm by 100 degrees.

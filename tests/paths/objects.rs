@@ -137,7 +137,7 @@ fn results_enclose_objects() {
         );
         check(&problem, &outcome);
 
-        let table = to_table(&problem, &outcome);
+        let table = to_table(&problem, &outcome, None);
         let lines: &[&str] = match problem.dimension {
             2 => &[
                 "circle hole: centre c, radius 1.50",
@@ -157,6 +157,7 @@ fn results_enclose_objects() {
             outcome: &outcome,
             trace: Some(&trace),
             samples: 30,
+            tested: None,
         };
         let json = written.to_value();
         let round = ["hole", "ball"][problem.dimension - 2];

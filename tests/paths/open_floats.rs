@@ -77,12 +77,15 @@ fn floats_go_both_ways_to_infinity_and_find_what_is_proved() {
 fn nothing_of_it_is_called_proved() {
     let problem = shipped("infinite");
     let seen = run(&problem, &Options::float(Space::Full));
-    for text in [to_table(&problem, &seen), to_summary(&problem, &seen)] {
+    for text in [
+        to_table(&problem, &seen, None),
+        to_summary(&problem, &seen, None),
+    ] {
         let first = text.lines().next().unwrap().to_lowercase();
         assert!(first.contains("open, observed"), "{first}");
         assert!(!text.contains("proved"), "{text}");
     }
-    assert!(to_table(&problem, &seen).contains("not a proof"));
+    assert!(to_table(&problem, &seen, None).contains("not a proof"));
     for space in ["full", "reduced"] {
         let run = Command::new(env!("CARGO_BIN_EXE_krawl"))
             .args(["solve", "problems/constraints/6p7d3a2c-infinite.toml"])

@@ -305,6 +305,9 @@ fn the_program_refuses_bad_input_with_code_2_and_no_file() {
             continue; // one of the two cases that need more than one replacement
         }
         for verb in ["check", "solve"] {
+            if (what, verb) == ("one too many", "solve") {
+                continue; // it is left out, and the figures are tested for it
+            }
             let mut command = krawl();
             command.arg(verb).arg(&file);
             if verb == "solve" {

@@ -119,6 +119,7 @@ fn solve(
             outcome: &outcome,
             trace: trace.as_ref().map(|(_, trace)| trace),
             samples,
+            tested: None,
         };
         Ok(run.to_json())
     };

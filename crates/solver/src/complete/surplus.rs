@@ -12,7 +12,7 @@ use crate::linalg::Span;
 use crate::places::Each as _;
 use crate::problem::{Distance, Problem, Target, free_coordinates, rigidity};
 use crate::system::typical_length;
-use crate::track::Solution;
+use crate::track::{Mode, Outcome};
 
 /// A distance that was left out of a search.
 #[derive(Debug, Clone, PartialEq)]
@@ -70,6 +70,26 @@ impl Tested {
     pub fn is_decided(&self) -> bool {
         let tested = (self.met + self.missed + self.undecided) as u64;
         self.left_out.is_empty() || self.undecided == 0 && self.found == Some(tested)
+    }
+
+    /// Counts a figure by how it stands to what was left out, and keeps that if the figure is a solution: it is none if it was proved to miss something.
+    fn is_solution(&mut self, figure: Vec<LeftOut>) -> bool {
+        let all = figure.iter().map(|one| one.verdict);
+        match all.fold(Verdict::Follows, Verdict::and) {
+            Verdict::Missed { by } => {
+                self.missed += 1;
+                self.by = self.by.min(by);
+                return false;
+            }
+            Verdict::Met { within } => {
+                self.met += 1;
+                self.within = self.within.max(within);
+            }
+            Verdict::Undecided { .. } | Verdict::NotLookedAt => self.undecided += 1,
+            Verdict::Follows => self.met += 1,
+        }
+        self.figures.push(figure);
+        true
     }
 }
 
@@ -138,25 +158,84 @@ impl Surplus {
     /// Searches all figures, and tests them: those that were proved to miss a distance are no solutions.
     pub fn search(&self, options: &Options) -> Result<Complete, Unserved> {
         let mut result = all(&self.problem, options)?;
-        let figures = result
-            .solutions
-            .iter()
-            .map(|solution| self.account(solution));
-        let figures: Vec<Vec<LeftOut>> = figures.collect();
-        let names: Vec<String> = self.spare.iter().map(|spare| spare.name.clone()).collect();
-        let used = self.problem.distances.len() + self.problem.constraints.len();
-        result.strike_out([used, self.spare.len()], names, figures);
+        let figures = result.solutions.iter();
+        let figures: Vec<Vec<LeftOut>> =
+            figures.map(|figure| self.account(&figure.points)).collect();
+        result.strike_out([self.used(), self.spare.len()], self.names(), figures);
         if let Some(tested) = &mut result.tested {
             tested.added.extend(self.added.iter().cloned());
         }
         Ok(result)
     }
 
+    /// Tests the solutions of a path on which the distances used were led to what they are to be: those that were proved to miss one of the
+    /// others are no solutions, and are taken out.
+    pub fn test(&self, outcome: &mut Outcome) -> Tested {
+        let mut tested = Tested {
+            used: self.used(),
+            all: self.used() + self.spare.len(),
+            what: "constraints",
+            found: Some(outcome.solutions.len() as u64),
+            by: f64::INFINITY,
+            left_out: self.names(),
+            added: self.added.clone(),
+            ..Tested::default()
+        };
+        if outcome.mode == Mode::Float {
+            // Nothing is known of floats.
+            tested.undecided = outcome.solutions.len();
+            return tested;
+        }
+        let mut places = Vec::new();
+        for solution in std::mem::take(&mut outcome.solutions) {
+            let is_one = tested.is_solution(self.account(&solution.points));
+            places.push(is_one.then_some(outcome.solutions.len()));
+            if is_one {
+                outcome.solutions.push(solution);
+            }
+        }
+        // A mirror image has the same distances.
+        for solution in &mut outcome.solutions {
+            solution.mirror_of = solution.mirror_of.and_then(|other| places[other]);
+        }
+        tested
+    }
+
+    /// How many distances and other constraints are used.
+    fn used(&self) -> usize {
+        self.problem.distances.len() + self.problem.constraints.len()
+    }
+
+    /// What was left out, by name.
+    fn names(&self) -> Vec<String> {
+        self.spare.iter().map(|spare| spare.name.clone()).collect()
+    }
+
+    /// Adds to what is said of figures what was left out of them before anything was followed: how `figure`, the one that is printed, stands to it,
+    /// or, where there is none, that nothing is proved of it.
+    pub fn add_to(&self, account: &mut Account, figure: Option<&[[Interval; 3]]>) {
+        if account.equations == 0 {
+            account.equations = self.used();
+        }
+        for added in &self.added {
+            if !account.added.contains(added) {
+                account.added.push(added.clone());
+            }
+        }
+        let verdicts: Vec<Verdict> = match figure {
+            Some(figure) => self.account(figure).iter().map(|one| one.verdict).collect(),
+            None => vec![Verdict::NotLookedAt; self.spare.len()],
+        };
+        for (spare, verdict) in self.spare.iter().zip(verdicts) {
+            account.leave_out(format!("`{}`", spare.name), verdict);
+        }
+    }
+
     /// How a figure stands to each distance that was left out.
-    fn account(&self, figure: &Solution) -> Vec<LeftOut> {
+    fn account(&self, figure: &[[Interval; 3]]) -> Vec<LeftOut> {
         let mut account = Account::default();
         for spare in &self.spare {
-            let [a, b] = spare.distance.points.each(|p| figure.points[p]);
+            let [a, b] = spare.distance.points.each(|p| figure[p]);
             let verdict = Verdict::of(miss(a, b, &spare.distance.target), spare.epsilon);
             account.leave_out(spare.name.clone(), verdict);
         }
@@ -201,25 +280,11 @@ impl Complete {
         });
         let solutions = std::mem::take(&mut self.solutions);
         for (mut solution, figure) in solutions.into_iter().zip(figures) {
-            let worst = figure
-                .iter()
-                .fold(Verdict::Follows, |worst, one| worst.and(one.verdict));
-            match worst {
-                Verdict::Missed { by } => {
-                    tested.missed += 1;
-                    tested.by = tested.by.min(by);
-                    continue;
-                }
-                Verdict::Met { within } => {
-                    tested.met += 1;
-                    tested.within = tested.within.max(within);
-                }
-                Verdict::Undecided { .. } | Verdict::NotLookedAt => tested.undecided += 1,
-                Verdict::Follows => tested.met += 1,
+            if !tested.is_solution(figure) {
+                continue;
             }
             solution.class = self.solutions.len();
             self.solutions.push(solution);
-            tested.figures.push(figure);
         }
         self.count = self.count.map(|count| count - tested.missed as u64);
         self.tested = Some(tested);
