@@ -2,6 +2,7 @@
 
 use krawl::problem::Problem;
 use krawl::report::{Measures, Placed};
+use krawl::system::Quantity;
 use krawl::track::Solution;
 
 /// A solution as it is measured.
@@ -14,7 +15,7 @@ pub(super) fn placed(solution: &Solution) -> Placed<'_> {
 pub(super) struct Measured {
     /// Measure this of every figure, with proof: 'angle A B C', A-B
     ///
-    /// May be given several times: `A-B`, `angle A B C`, `turn A B C` (with its sense, from −180 to 180), `torsion A
+    /// May be given several times, and with a name, "gap = A-B": `A-B`, `angle A B C`, `turn A B C` (with its sense, from −180 to 180), `torsion A
     /// B C D`, `x A`, `area A B C ...` (of an outline that does not cross itself); of a joint `turn J` and `travel
     /// J`, of a circle, sphere or arc `radius C`, of an unknown `value x` (these four not in `motion` and
     /// `tolerance`)
@@ -23,30 +24,43 @@ pub(super) struct Measured {
 }
 
 impl Measured {
-    /// Whether nothing is to be measured.
+    /// Whether nothing is asked for beside what files want measured.
     pub fn is_empty(&self) -> bool {
         self.measure.is_empty()
     }
 
-    /// What is to be measured, as it was written.
-    pub fn texts(&self) -> &[String] {
-        &self.measure
+    /// What is to be measured of the points of a problem: what the file wants, by its names, and what was asked for.
+    pub fn texts(&self, problem: &Problem) -> Vec<String> {
+        let own = of_file(problem);
+        let own = own.filter(|text| Quantity::parse(problem, text).is_ok());
+        own.chain(self.measure.iter().cloned()).collect()
     }
 
-    /// Of the points of a problem.
+    /// Of the points and objects of a problem.
     pub fn of(&self, problem: &Problem) -> Result<Measures, String> {
-        Measures::parse(problem, &self.measure)
+        let all: Vec<String> = of_file(problem)
+            .chain(self.measure.iter().cloned())
+            .collect();
+        Measures::parse(problem, &all)
     }
 
     /// Of the points of a problem alone.
     pub fn of_points(&self, problem: &Problem) -> Result<Measures, String> {
-        let measures = self.of(problem)?;
-        match measures.of_an_object() {
+        // What the file wants has to be something in any case.
+        self.of(problem)?;
+        let asked = Measures::parse(problem, &self.measure)?;
+        match asked.of_an_object() {
             Some(name) => Err(format!(
                 "--measure \"{name}\": numbers of objects are measured by solve, all, edit and sweep; motion and tolerance measure lengths, \
                  angles, coordinates and areas of points"
             )),
-            None => Ok(measures),
+            None => Measures::parse(problem, &self.texts(problem)),
         }
     }
+}
+
+/// What a file wants measured.
+fn of_file(problem: &Problem) -> impl Iterator<Item = String> {
+    let all = problem.measures.iter();
+    all.map(|(name, what)| format!("{name} = {what}"))
 }

@@ -74,7 +74,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let motion = Motion::of(
         problem,
         &arguments.free,
-        arguments.measured.texts(),
+        &arguments.measured.texts(problem),
         &Options::certified(),
         &mut control,
     );

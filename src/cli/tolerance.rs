@@ -90,7 +90,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let study = study(
         &problem,
         &limits,
-        arguments.measured.texts(),
+        &arguments.measured.texts(&problem),
         &Options::certified(),
         &mut control,
     );

@@ -280,6 +280,7 @@ impl Drawing {
             distances,
             labels,
             tolerances: Default::default(),
+            measures: Vec::new(),
             parameters: Vec::new(),
         };
         Finished {

@@ -5,7 +5,7 @@ use super::certain_digits;
 use super::drawing::{Drawing, names};
 use super::objects::joints_to_value;
 use super::table::write_joints;
-use crate::blocks::{Account, Why};
+use crate::blocks::{Account, Why, rounded_up};
 use crate::edit::{
     Alone, Decomposition, Dimension, Drag, Dragged, Edited, Ending, Limit, Moved, Session,
 };
@@ -253,9 +253,9 @@ pub fn limit_in_words(problem: &Problem, limit: &Limit) -> String {
         n => format!(", and {n} more such sets"),
     };
     format!(
-        "There {} are {place}{more} (up to {:.0e}), and {instant}.",
+        "There {} are {place}{more} (up to {}), and {instant}.",
         shown.join("; "),
-        limit.flat_within
+        rounded_up(limit.flat_within)
     )
 }
 
@@ -283,7 +283,10 @@ pub(super) fn write_moved(out: &mut String, problem: &Problem, moved: Moved) -> 
     }
     let far = match problem.points.is_empty() {
         true => String::new(),
-        false => format!(": no point moved by more than {:.1e}", moved.distance),
+        false => format!(
+            ": no point moved by more than {}",
+            rounded_up(moved.distance)
+        ),
     };
     writeln!(
         out,

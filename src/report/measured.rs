@@ -3,7 +3,7 @@
 use super::certain_digits;
 use crate::interval::Interval;
 use crate::problem::{Problem, Shape};
-use crate::system::{Located, Quantity};
+use crate::system::{Located, Quantity, with_a_name};
 use serde_json::{Value, json};
 use std::fmt::Write;
 
@@ -71,12 +71,19 @@ impl Part {
 
 impl Measure {
     fn parse(problem: &Problem, text: &str) -> Result<Self, String> {
+        let call = |found: &mut Self, own| match found {
+            Measure::Quantity(quantity) => quantity.name = own,
+            Measure::Number(name, ..) => *name = own,
+        };
+        with_a_name(text, |text| Self::unnamed(problem, text), call)
+    }
+
+    fn unnamed(problem: &Problem, text: &str) -> Result<Self, String> {
         // Names of points may be anything.
         let why = match Quantity::parse(problem, text) {
             Ok(quantity) => return Ok(Measure::Quantity(quantity)),
             Err(why) => why,
         };
-        let text = text.trim();
         let named = text.split_once(char::is_whitespace);
         let Some((part, what, name)) = named.and_then(|(word, name)| {
             let (part, what) = Part::named(word)?;

@@ -5,6 +5,7 @@ use super::drawing::Drawing;
 use super::edit::{bounds, points_to_value};
 use super::measured::Measures;
 use super::sweep::frames_to_csv;
+use crate::blocks::rounded_up;
 use crate::edit::WayEnd;
 use crate::interval::{Interval, point};
 use crate::motion::{Bounds, Extreme, Measured, Motion};
@@ -43,8 +44,8 @@ pub fn motion_to_table(motion: &Motion) -> String {
         // Writing to a string cannot fail.
         let _ = writeln!(
             out,
-            "The drawing was moved to a figure that meets its dimensions first: no point moved by more than {:.1e}.",
-            motion.moved
+            "The drawing was moved to a figure that meets its dimensions first: no point moved by more than {}.",
+            rounded_up(motion.moved)
         );
     }
     for (which, end) in ["One way", "The other way"].iter().zip(&motion.ends) {

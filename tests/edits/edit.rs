@@ -195,6 +195,12 @@ fn bad_settings_are_bad_input() {
             "{message}"
         );
     }
+    // A constraint is named in sentences with a space behind its kind.
+    let bracket = Problem::read("docs/examples/bracket.toml").unwrap();
+    for name in ["radii:hole", "radii: hole", "hole"] {
+        let found = Setting::find(&bracket, name).unwrap();
+        assert_eq!(bracket.dimension_name(found), "radii:hole");
+    }
     let twice = ["edit", FOUR_BAR, "--set", "B-D=4", "--set", "D-B=5"];
     krawl().args(twice).assert().code(2);
 }

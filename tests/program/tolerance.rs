@@ -89,3 +89,65 @@ fn bands_in_space_are_boxes() {
     let sides = text.matches("fill-opacity=\"0.08\"").count();
     assert!(sides > 0 && sides.is_multiple_of(6), "{sides}");
 }
+
+/// What a file wants measured is measured by every verb, by the file's names; numbers of objects where the verb measures them.
+#[test]
+fn measures_of_a_file_have_names() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let (file, json, csv) = (at("m.toml"), at("m.json"), at("m.csv"));
+    let plate = fs::read_to_string("docs/examples/bracket.toml").unwrap();
+    let measures =
+        "[measures]\n\"to the hole\" = \"B-H\"\nouter = \"area A B C D\"\nbore = \"radius hole\"\n";
+    fs::write(&file, format!("{plate}{measures}")).unwrap();
+    let (code, text, error) = krawl(&[
+        "edit",
+        &file,
+        "--set",
+        "width=60",
+        "--measure",
+        "slope = angle B A H",
+        "--json",
+        &json,
+    ]);
+    assert_eq!(code, Some(0), "{error}");
+    let result: Value = serde_json::from_str(&fs::read_to_string(&json).unwrap()).unwrap();
+    let written = result["measures"].to_string();
+    for (name, value) in [
+        ("to the hole", (30.0f64 * 30.0 + 625.0).sqrt()),
+        ("outer", 3000.0),
+        ("bore", 4.5),
+        ("slope", (25.0f64 / 30.0).atan().to_degrees()),
+    ] {
+        assert!(
+            text.contains(name) && written.contains(&format!("\"{name}\"")),
+            "{text}{written}"
+        );
+        let digits = format!("{value:.6}");
+        assert!(text.contains(&digits[..3]), "{name} {value}: {text}");
+    }
+    let (code, _, error) = krawl(&[
+        "tolerance",
+        &file,
+        "--tolerance",
+        "dx:D-C=0",
+        "--csv",
+        &csv,
+        "--quiet",
+    ]);
+    assert_eq!(code, Some(0), "{error}");
+    let rows = fs::read_to_string(&csv).unwrap();
+    let names: Vec<&str> = rows
+        .lines()
+        .skip(1)
+        .map(|row| row.split(',').next().unwrap())
+        .collect();
+    assert_eq!(names, ["\"to the hole\"", "outer"]);
+    // What is none is said with its name.
+    fs::write(&file, format!("{plate}[measures]\ngap = \"A-Z\"\n")).unwrap();
+    let (code, _, error) = krawl(&["edit", &file, "--set", "width=60"]);
+    assert!(code == Some(2) && error.contains("A-Z"), "{error}");
+    fs::write(&file, format!("{plate}[measures]\ngap = 5\n")).unwrap();
+    let (code, _, error) = krawl(&["check", &file]);
+    assert!(code == Some(2) && error.contains("measures.gap"), "{error}");
+}

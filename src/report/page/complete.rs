@@ -3,6 +3,7 @@
 
 use super::reader::{Reader, ShowError, list, text, wrong};
 use super::{Figure, Page, Text, Tone};
+use crate::blocks::rounded_up;
 use serde_json::Value;
 
 pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
@@ -14,7 +15,7 @@ pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
         let figure = reader.figure(&solution["points"], &Value::Null);
         page.figures.push(Figure {
             name: format!("Solution {}", k + 1),
-            note: format!("known up to {width:.0e} of its size"),
+            note: format!("known up to {} of its size", rounded_up(width)),
             class: Some(k),
             ..figure.ok_or(wrong("solutions"))?
         });

@@ -2,6 +2,7 @@
 
 use super::reader::{Reader, ShowError, digits, middle, pair, text, wrong};
 use super::{Figure, Page, Text, Tone};
+use crate::blocks::rounded_up;
 use crate::order::InOrder;
 use serde_json::Value;
 
@@ -14,7 +15,8 @@ pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
     let moved = result["moved"].as_f64().ok_or(wrong("moved"))?;
     if moved > 0.0 {
         page.verdict += &format!(
-            " The sketch was led to its own dimensions first, proved likewise: no point moved by more than {moved:.1e}."
+            " The sketch was led to its own dimensions first, proved likewise: no point moved by more than {}.",
+            rounded_up(moved)
         );
     }
     let ranges = result["ranges"].as_object().ok_or(wrong("ranges"))?;

@@ -326,14 +326,22 @@ fn joined<const N: usize>(parts: [String; N], between: &str) -> String {
 
 /// A number of one digit that is no less than this one.
 pub fn rounded_up(x: f64) -> String {
-    one_digit(x, |shown| shown >= x, 1)
+    plain(one_digit(x, |shown| shown >= x, 1))
 }
 
 /// A number of two digits that is no more than this one.
 pub fn rounded_down(x: f64) -> String {
     let text = format!("{x:.1e}");
-    match text.parse::<f64>() {
+    plain(match text.parse::<f64>() {
         Ok(shown) if shown > x => one_digit(x, |shown| shown <= x, -1),
+        _ => text,
+    })
+}
+
+/// The same number without a power of ten, where it has few zeros so.
+fn plain(text: String) -> String {
+    match text.parse::<f64>() {
+        Ok(x) if (1e-3..1e4).contains(&x.abs()) => x.to_string(),
         _ => text,
     }
 }

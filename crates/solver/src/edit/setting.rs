@@ -394,6 +394,9 @@ fn find(problem: &Problem, name: &str) -> Result<usize, SettingError> {
     if let (Some(index), None) = (labelled.next(), labelled.next()) {
         return Ok(index);
     }
+    // Where constraints are named in sentences there is a space behind the kind.
+    let plain: Vec<&str> = name.split(':').map(str::trim).collect();
+    let plain = plain.join(":");
     let mut found = None;
     for index in problem.dimensions() {
         let is = |a: &str, b: &str| {
@@ -410,7 +413,7 @@ fn find(problem: &Problem, name: &str) -> Result<usize, SettingError> {
             }
             Some(_) => {
                 let is = |own: &str| {
-                    own == name || own.split_once(':').is_some_and(|(_, items)| items == name)
+                    own == plain || own.split_once(':').is_some_and(|(_, items)| items == name)
                 };
                 is(&problem.derived_name(index))
                     || named_by_lines(problem, index).is_some_and(|own| is(&own))

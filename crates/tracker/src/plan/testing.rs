@@ -77,6 +77,7 @@ pub fn rigid(dimension: usize, points: std::ops::Range<usize>) -> impl Strategy<
             Some(Problem {
                 labels: Default::default(),
                 tolerances: Default::default(),
+                measures: Vec::new(),
                 parameters: Vec::new(),
                 name: "random".into(),
                 dimension,

@@ -386,6 +386,7 @@ impl ProblemBuilder {
         let mut problem = Problem {
             labels: Default::default(),
             tolerances: Default::default(),
+            measures: Vec::new(),
             parameters: Vec::new(),
             name: self.name,
             dimension: self.dimension,

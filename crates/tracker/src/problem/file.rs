@@ -317,6 +317,7 @@ impl<'a> Reader<'a> {
                 "homotopy",
                 "parameters",
                 "tolerances",
+                "measures",
                 "published",
             ],
         )?;
@@ -367,6 +368,7 @@ impl<'a> Reader<'a> {
         let problem = builder.finish();
         let mut problem = problem.map_err(|error| self.in_problem(&places, error))?;
         problem.tolerances = self.tolerances(root)?;
+        problem.measures = self.measures(root)?;
         for (c, constraint) in problem.constraints.iter().enumerate() {
             if let ("values", [super::Item::Object(object)]) =
                 (constraint.kind.as_str(), &constraint.items[..])
@@ -768,6 +770,19 @@ impl<'a> Reader<'a> {
             }
             _ => self.number(line, key, value),
         }
+    }
+
+    fn measures(&self, root: &dyn TableLike) -> Result<Vec<(String, String)>, FileError> {
+        let Some((line, item)) = self.get(root, "measures") else {
+            return Ok(Vec::new());
+        };
+        let all = self.table(line, "measures", item)?;
+        let all = all.iter().map(|(name, item)| {
+            let line = self.line(item.span()).or(line);
+            let what = self.string(line, &format!("measures.{name}"), item)?;
+            Ok((name.to_owned(), what))
+        });
+        all.collect()
     }
 
     fn tolerances(&self, root: &dyn TableLike) -> Result<Tolerances, FileError> {

@@ -45,6 +45,8 @@ pub struct Problem {
     pub labels: BTreeMap<usize, String>,
     /// The tolerances that the file gives.
     pub tolerances: Tolerances,
+    /// What the file wants measured of figures: a name, and what it is, as `--measure` takes it.
+    pub measures: Vec<(String, String)>,
     /// The parameters that the file gives, by which [computed numbers](Decimal::expression) of constraints were computed.
     pub parameters: Vec<(String, Decimal)>,
 }

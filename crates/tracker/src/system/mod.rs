@@ -29,7 +29,7 @@ pub use homotopy::{Edge, Homotopy, Term};
 pub use interpolation::Length;
 pub use located::{Located, locate};
 pub use part::{Beside, Part};
-pub use quantity::{Quantity, WHOLE_TURN};
+pub use quantity::{Quantity, WHOLE_TURN, with_a_name};
 pub use right::Right;
 pub use segment::{Extent, Segment};
 pub use simplices::{orientation, simplices};

@@ -29,6 +29,22 @@ enum What {
 /// The forms, for messages.
 const FORMS: &str = "`A-B`, `angle A B C`, `turn A B C`, `torsion A B C D`, `x A`, `y A`, `z A` or `area A B C ...`";
 
+/// What a text says, or, where it says nothing and has the form `name = text`, what the text behind says, by that name.
+pub fn with_a_name<T>(
+    text: &str,
+    parse: impl Fn(&str) -> Result<T, String>,
+    call: impl Fn(&mut T, String),
+) -> Result<T, String> {
+    let text = text.trim();
+    // Names of points may have anything in them.
+    parse(text).or_else(|why| {
+        let (name, text) = text.split_once('=').ok_or(why)?;
+        let mut found = parse(text.trim())?;
+        call(&mut found, name.trim().to_owned());
+        Ok(found)
+    })
+}
+
 impl Quantity {
     /// The length between two points.
     pub fn length(problem: &Problem, points: [usize; 2]) -> Self {
@@ -47,12 +63,19 @@ impl Quantity {
         }
     }
 
-    /// From a text such as `A-B` and `angle A B C`.
+    /// From a text such as `A-B` and `angle A B C`, or with a name of its own, as `gap = A-B`.
     ///
     /// # Errors
     /// That it is none, and why.
     pub fn parse(problem: &Problem, text: &str) -> Result<Self, String> {
-        let text = text.trim();
+        with_a_name(
+            text,
+            |text| Self::unnamed(problem, text),
+            |found, name| found.name = name,
+        )
+    }
+
+    fn unnamed(problem: &Problem, text: &str) -> Result<Self, String> {
         let point = |name: &str| problem.points.iter().position(|p| p.name == name);
         let fail = |why: String| Err(format!("--measure \"{text}\": {why}"));
         let named = |what, points| {

@@ -10,7 +10,7 @@
 
 use super::left_out::at_rest_all;
 use super::{End, Followers, MOST_TUBES, Parts};
-use crate::blocks::{Blocks, Choice, FINE, LAST, Used, is_exact, keep};
+use crate::blocks::{Blocks, Choice, FINE, LAST, Used, is_exact, keep, rounded_up};
 use crate::constraint::try_lower_all;
 use crate::edit::ending::{Edited, Ending, Keep};
 use crate::edit::setting::Setting;
@@ -263,7 +263,10 @@ fn can_go_on(ending: &Ending) -> bool {
 
 fn in_words(done: f64, moved: f64) -> String {
     let beside = match moved > 0.0 {
-        true => format!("; points moved by at most {moved:.0e} to meet what was left out before"),
+        true => format!(
+            "; points moved by at most {} to meet what was left out before",
+            rounded_up(moved)
+        ),
         false => String::new(),
     };
     format!(
