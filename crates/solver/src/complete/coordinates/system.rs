@@ -3,6 +3,7 @@
 use crate::equations;
 use crate::interval::{Interval, ZERO, point};
 use crate::places::Each as _;
+use crate::sets::Joined;
 use crate::system::Homotopy;
 
 /// A difference of two entries, or the number 1.
@@ -197,28 +198,18 @@ impl System {
     pub fn names(&self) -> Vec<usize> {
         let zero = self.unknowns;
         let order = |entry: usize| (entry != zero, entry);
-        let mut names: Vec<usize> = (0..=zero).collect();
-        let root = |names: &[usize], mut entry: usize| {
-            while names[entry] != entry {
-                entry = names[entry];
-            }
-            entry
-        };
+        let mut sets = Joined::new(zero + 1);
         for row in &self.rows[..zero] {
             if let [p] = row.products[..]
                 && row.right == ZERO
                 && let (Form::Difference(a, b), Form::One) | (Form::One, Form::Difference(a, b)) =
                     (p.left, p.right)
             {
-                let [a, b] = [a, b].each(|entry| root(&names, entry));
-                let (first, other) = match order(a) < order(b) {
-                    true => (a, b),
-                    false => (b, a),
-                };
-                names[other] = first;
+                let [a, b] = [a, b].each(|entry| sets.of(entry));
+                sets.join(if order(a) < order(b) { [b, a] } else { [a, b] });
             }
         }
-        (0..=zero).map(|entry| root(&names, entry)).collect()
+        (0..=zero).map(|entry| sets.of(entry)).collect()
     }
 
     /// (k, v, u), if a row says v − k u = 0.
