@@ -698,13 +698,8 @@ fn solutions(homotopy: &Homotopy, found: &[FigureBox]) -> Vec<Solution> {
         let width = all().fold(0.0, |max: f64, x| max.max(x.wid())) / size.max(f64::MIN_POSITIVE);
         Solution {
             objects: homotopy.locate(&points, |i| entry(figure, i)),
-            auxiliary: Vec::new(),
-            points,
-            class,
             width,
-            place: None,
-            mirror_of: None,
-            is_degenerate: false,
+            ..Solution::placed(points, class)
         }
     });
     figures.collect()
