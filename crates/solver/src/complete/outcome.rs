@@ -10,7 +10,7 @@ use super::visit::{Found, Why};
 use crate::certificate::cover::CoverVerdict;
 use crate::constraint::Symmetry;
 use crate::interval::vector::{cross, dot, minus, unit as direction};
-use crate::interval::{Interval, point};
+use crate::interval::{Interval, around, point};
 use crate::order::InOrder;
 use crate::places::array;
 use crate::problem::Problem;
@@ -576,8 +576,7 @@ fn in_gauge(
             if k >= order.min(d) {
                 return zero;
             }
-            let (x, r) = (figure.centre[p][k], figure.radius);
-            crate::interval::hull((x - r).next_down(), (x + r).next_up())
+            around(figure.centre[p][k], figure.radius)
         })
     };
     let unit = point(search.targets.unit);

@@ -52,7 +52,7 @@ mod zeros;
 #[doc(hidden)]
 pub use self::{
     arguments::{Arguments, Flat, LineName, Sort, Thing},
-    frame::vector,
+    frame::{cross, dot, is_zero, vector},
     kinds::is_opposite_nearer,
     lowering::{Fault, Lowered, MOST_TURN, Record},
     objects::{base_of, own_number},

@@ -1,5 +1,6 @@
 //! Finding the blocks: maximum matching and strongly connected components.
 
+use crate::order::each_once;
 use petgraph::graph::{DiGraph, NodeIndex};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -138,14 +139,8 @@ impl Ordering {
         };
         for component in in_order(&components, |c| {
             let needed = components[c].equations.iter().flat_map(|&e| used(e));
-            let mut needed: Vec<usize> = needed
-                .filter_map(|u| solved_by[u])
-                .map(|e| component_of[e])
-                .filter(|&other| other != c)
-                .collect();
-            needed.sort_unstable();
-            needed.dedup();
-            needed
+            let needed = needed.filter_map(|u| Some(component_of[solved_by[u]?]));
+            each_once(needed.filter(|&other| other != c))
         }) {
             let Component {
                 equations,

@@ -2,6 +2,7 @@
 
 use crate::equations;
 use crate::interval::{Interval, ZERO, point};
+use crate::order::each_once;
 use crate::places::Each as _;
 use crate::sets::Joined;
 use crate::system::Homotopy;
@@ -41,17 +42,11 @@ pub struct System {
 impl Row {
     /// A row of some products. `zero`: the entry that is the number 0.
     pub fn new(products: Vec<Product>, right: Interval, zero: usize) -> Self {
-        let mut entries: Vec<usize> = products
-            .iter()
-            .flat_map(|p| p.entries())
-            .filter(|&entry| entry != zero)
-            .collect();
-        entries.sort_unstable();
-        entries.dedup();
+        let entries = products.iter().flat_map(|p| p.entries());
         Row {
+            entries: each_once(entries.filter(|&entry| entry != zero)),
             products,
             right,
-            entries,
         }
     }
 

@@ -21,7 +21,7 @@
 
 use super::link::{Ball, Frame, Tube};
 use crate::interval::rounding::{gamma, in_range, largest, round_up};
-use crate::interval::{Interval, hull, point};
+use crate::interval::{around, hull, point};
 use crate::linalg::{Inverter, Matrix, Sparse, Vector};
 use crate::places::Each as _;
 use crate::system::Homotopy;
@@ -342,11 +342,6 @@ impl FoldProver {
         let along = terms.fold(point(-1.0), |sum, (&c, &v)| sum + point(c) * point(v));
         self.f[2 * m] = along.mag();
     }
-}
-
-/// The interval of this radius around a float.
-fn around(x: f64, radius: f64) -> Interval {
-    hull((x - radius).next_down(), (x + radius).next_up())
 }
 
 /// The point (X, t) of a fold as a box.

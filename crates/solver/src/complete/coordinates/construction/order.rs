@@ -8,6 +8,7 @@
 use super::super::newton::{KNOWN, Square};
 use super::super::system::{Form, Row};
 use crate::complete::model::Number;
+use crate::order::each_once;
 use std::collections::BTreeMap;
 
 /// Unknowns that one step finds, at most.
@@ -170,15 +171,9 @@ impl Order {
         if least > MOST_DRIVES {
             return Vec::new();
         }
-        let mut outside: Vec<usize> = square
-            .rows
-            .iter()
-            .flat_map(|row| row.entries.clone())
-            .collect();
-        outside.retain(|&e| square.place[e] == KNOWN);
-        outside.push(zero);
-        outside.sort_unstable();
-        outside.dedup();
+        let entries = square.rows.iter().flat_map(|row| row.entries.clone());
+        let outside = entries.filter(|&e| square.place[e] == KNOWN);
+        let outside = each_once(outside.chain([zero]));
         let best = ways.into_iter().filter(|way| way.drives == least);
         let orders = best.take(most).map(|way| {
             let mut known = 0;
