@@ -19,7 +19,7 @@
 //! `alone_within`. In a tube with the normal c the path P(s) has c·P' = 1, so that wherever t'(s) = 0 the point
 //! (P(s), X'(s)) is a zero of Φ: if it stays within `alone_within`, the fold is the only such place.
 
-use super::link::{Ball, Frame, Tube};
+use super::link::{Frame, Tube};
 use crate::interval::rounding::{gamma, in_range, largest, round_up};
 use crate::interval::{around, hull, point};
 use crate::linalg::{Inverter, Matrix, Sparse, Vector};
@@ -342,17 +342,6 @@ impl FoldProver {
         let along = terms.fold(point(-1.0), |sum, (&c, &v)| sum + point(c) * point(v));
         self.f[2 * m] = along.mag();
     }
-}
-
-/// The point (X, t) of a fold as a box.
-pub fn ball_of(fold: &Fold, equations: &Equations) -> Ball {
-    let m = equations.m;
-    let mut ball = Ball::new(equations);
-    ball.centre[..m].copy_from_slice(&fold.figure.centre);
-    ball.radius[..m].copy_from_slice(&fold.figure.radius);
-    ball.centre[m] = fold.t.mid();
-    ball.radius[m] = fold.t.rad();
-    ball
 }
 
 /// Proves that between two parameters of a tube, in whose cross-sections it was sought, the fold is the
