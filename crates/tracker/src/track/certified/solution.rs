@@ -1,8 +1,9 @@
 //! Boxes around the points of the path with t = 1.
 
 use super::figures::FigureBox;
+use super::proof::zero_near;
 use super::reasons::Doubt;
-use crate::interval::rounding::{gamma, largest, round_up};
+use crate::interval::rounding::{gamma, greatest, round_up};
 use crate::interval::{Interval, ZERO, hull, point};
 use crate::linalg::Vector;
 use crate::places::Each as _;
@@ -113,30 +114,20 @@ impl SolutionProver {
         if !(q0 < 0.5 && kappa.is_finite()) {
             return Err(Doubt::Contraction(q0));
         }
-        let alone_within = (0.9 * (0.9 - q0) / kappa).min(1e30);
-
         self.bound_residual(equations, extended);
         let local = &self.local;
         self.f[m] = 0.0;
         local.y.multiply_abs(&self.f[..m], &mut self.v);
-        let step = round_up(greatest(&self.v[..n]), n + 2);
-        let q = round_up(q0 + kappa * alone_within, 4);
-        let all = round_up(step / (1.0 - q), 60);
         // The box itself, as it is printed, has to lie where its solution is alone.
-        let printed = (0..m).fold(all, |max, i| {
-            max.max(all + outward(local.z[0][i], local.low[i], all))
-        });
-        if !(q < 1.0 && printed < 0.99 * alone_within) {
-            return Err(Doubt::Wide {
-                radius: printed,
-                alone: alone_within,
-            });
-        }
-        // |x* − x| ≤ |Y F(x)| + |M| |x* − x|, entry by entry, with |M| at the distance just proved.
-        let near = round_up((q0 + kappa * all) * all, 6);
+        let printed = |all: f64| {
+            let entry = |i: usize| all + outward(local.z[0][i], local.low[i], all);
+            (0..m).fold(all, |max, i| max.max(entry(i)))
+        };
+        let test = (q0, kappa, 1e30);
+        let (alone_within, radius) = zero_near(test, &self.v[..n], printed)?;
         let figure = &mut self.found.figure;
         for (r, v) in figure.radius.iter_mut().zip(self.v.iter()) {
-            *r = round_up(v + near, n + 8);
+            *r = radius(*v);
         }
         figure.centre.copy_from_slice(&local.z[0][..m]);
         figure.low.copy_from_slice(&local.low[..m]);
@@ -150,26 +141,10 @@ impl SolutionProver {
         let local = &self.local;
         // q₀: I − Y [J; e_t], and the rounding of its computation and of J's entries.
         let per_entry = gamma(equations.roundings().of_entry_at_point());
-        let is_free = |end: usize| (end < n) as usize as f64;
         let (rounding, width) = (&mut self.rounding, &mut self.width);
         for e in 0..m {
             let slope = local.lengths.terms[1][e].abs();
-            let (mut size, mut change) = (slope, 0.0);
-            for axis in 0..equations.dimension() {
-                let free = equations.ends[axis][e].each(|end| is_free(end as usize));
-                let free = free[0] + free[1];
-                size += local.d[0][axis][e].abs() * free;
-                // |w_i − w_j| times the row sum of the entry's two columns.
-                change += free * free;
-            }
-            for (half, forms) in equations.tail.products(e) {
-                // The same for a product of two factors.
-                let free = forms.each(|form| equations.tail.ends(form).each(is_free));
-                let [left, right] = free.each(|ends| ends[0] + ends[1]);
-                let value = |form: usize| local.d[0].forms[form].abs();
-                size += half.abs() * (value(forms[0]) * right + value(forms[1]) * left);
-                change += 2.0 * half.abs() * left * right;
-            }
+            let (size, change) = equations.sizes_at(e, &local.d[0], slope);
             rounding[e] = per_entry * size;
             width[e] = change;
         }
@@ -351,11 +326,6 @@ impl FigureBox {
     pub(super) fn objects(&self, homotopy: &Homotopy, points: &[[Interval; 3]]) -> Vec<Located> {
         homotopy.locate(points, |i| self.entry(i))
     }
-}
-
-/// The greatest of some sizes; NaN if one of them is.
-fn greatest(v: &[f64]) -> f64 {
-    v.iter().fold(0.0, |max, &x| largest(max, x))
 }
 
 /// More than [`FigureBox::points`] adds to an entry by rounding outwards: twice two roundings of
