@@ -260,6 +260,7 @@ impl System {
 mod tests {
     use super::*;
     use crate::problem::Problem;
+    use crate::system::typical_length;
 
     /// Equations have the names that the search knows, but for those that say that two entries are equal.
     #[test]
@@ -284,7 +285,7 @@ mod tests {
             "steps.toml",
         )
         .unwrap();
-        let homotopy = Homotopy::for_sets(&problem).unwrap();
+        let homotopy = Homotopy::for_sets_in(&problem, typical_length(&problem)).unwrap();
         let system = System::new(&homotopy);
         let names = system.names();
         let renamed = (0..system.unknowns).filter(|&u| names[u] != u).count();

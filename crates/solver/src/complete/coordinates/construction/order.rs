@@ -443,7 +443,7 @@ mod tests {
     use crate::complete::coordinates::search::Block;
     use crate::complete::coordinates::system::System;
     use crate::problem::Problem;
-    use crate::system::Homotopy;
+    use crate::system::{Homotopy, typical_length};
 
     /// A multiple that is rounded makes nothing linear.
     #[test]
@@ -463,7 +463,7 @@ mod tests {
 
     fn largest(problem: &str) -> Vec<Order> {
         let problem = Problem::read(problem).unwrap();
-        let homotopy = Homotopy::for_sets(&problem).unwrap();
+        let homotopy = Homotopy::for_sets_in(&problem, typical_length(&problem)).unwrap();
         let system = System::new(&homotopy);
         let rows = system.rows[..system.unknowns].iter();
         let rows: Vec<Vec<usize>> = rows.map(|row| row.entries.clone()).collect();
