@@ -71,6 +71,7 @@
 //! - `places`: short arrays, made place by place
 //! - `random`: numbers that look random
 //! - `order`: sorting by places
+//! - `sets`: sets that are joined
 //! - [`equations`]: rows of products of differences
 //! - `elimination`: row echelon forms and inverses over any field
 //! - [`rational`]: exact ratios
@@ -119,7 +120,7 @@ pub use krawl_solver::{
 #[doc(hidden)]
 pub use krawl_solver::{elimination, linalg, plan, remarks};
 
-use krawl_solver::{debug_in_words, order, places};
+use krawl_solver::{debug_in_words, order, places, sets};
 #[cfg(feature = "explore")]
 use krawl_solver::{hexadecimal, random};
 

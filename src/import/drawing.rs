@@ -6,6 +6,7 @@ use crate::places::Each as _;
 use crate::problem::{
     Constraint, Decimal, Distance, HomotopyChoices, Item, Object, Point, Problem, Shape, Target,
 };
+use crate::sets::Joined;
 use std::collections::BTreeMap;
 
 /// Coordinates that a constraint makes one and that differ by more than this part of the sketch's size are left as
@@ -24,8 +25,8 @@ pub struct Drawing {
     constraints: Vec<(Constraint, Option<Source>)>,
     names: BTreeMap<Source, String>,
     unsupported: BTreeMap<String, usize>,
-    /// Points of one place by constraint, as a forest.
-    parent: Vec<usize>,
+    /// Points of one place by constraint.
+    joined: Joined,
     tangents: Vec<Tangent>,
 }
 
@@ -48,8 +49,7 @@ impl Drawing {
     /// A point.
     pub fn point(&mut self, name: String, at: [f64; 2]) -> usize {
         self.places.push((name, at));
-        self.parent.push(self.parent.len());
-        self.parent.len() - 1
+        self.joined.add()
     }
 
     /// A point that stays where it is.
@@ -131,13 +131,10 @@ impl Drawing {
     ) {
         if kind == "coincident"
             && let [Item::Point(a), Item::Point(b)] = items[..]
+            && !self.joined.join([b, a])
         {
-            let (a, b) = (self.root(a), self.root(b));
-            if a == b {
-                // Said before.
-                return;
-            }
-            self.parent[b] = a;
+            // Said before.
+            return;
         }
         let value = value.map(|value| decimal(value).unwrap_or_else(|| Decimal::from(0)));
         let constraint = Constraint {
@@ -199,13 +196,6 @@ impl Drawing {
         true
     }
 
-    fn root(&self, mut point: usize) -> usize {
-        while self.parent[point] != point {
-            point = self.parent[point];
-        }
-        point
-    }
-
     /// Points at which two edges meet by constraint: a point of each.
     fn shared(&self, edges: [usize; 2]) -> Option<[usize; 2]> {
         let ends = edges.map(|edge| match *self.shape(edge) {
@@ -215,17 +205,19 @@ impl Drawing {
         });
         // Points that are on the other edge by constraint.
         let on = |point: usize, edge: usize| {
-            let root = self.root(point);
+            let place = self.joined.of(point);
             self.constraints.iter().any(|(c, _)| {
                 c.kind == "on"
                     && c.items.last() == Some(&Item::Object(edge))
-                    && matches!(c.items[0], Item::Point(p) if self.root(p) == root)
+                    && matches!(c.items[0], Item::Point(p) if self.joined.of(p) == place)
             })
         };
         let both = ends[0]
             .iter()
             .flat_map(|&a| ends[1].iter().map(move |&b| [a, b]));
-        let meet = both.clone().find(|&[a, b]| self.root(a) == self.root(b));
+        let meet = both
+            .clone()
+            .find(|&[a, b]| self.joined.of(a) == self.joined.of(b));
         meet.or_else(|| {
             let first = ends[0].iter().find(|&&a| on(a, edges[1]));
             let second = ends[1].iter().find(|&&b| on(b, edges[0]));
@@ -295,14 +287,8 @@ impl Drawing {
     /// than twice [`SNAP`] of the largest coordinate, however many are made equal one after the other.
     fn snap(&mut self) {
         let count = self.places.len();
-        let mut parent: Vec<usize> = (0..2 * count).collect();
+        let mut equal = Joined::new(2 * count);
         let mut given: BTreeMap<usize, f64> = BTreeMap::new();
-        fn root(parent: &[usize], mut x: usize) -> usize {
-            while parent[x] != x {
-                x = parent[x];
-            }
-            x
-        }
         let all = self.places.iter().flat_map(|(_, at)| *at);
         let most = SNAP * all.fold(0.0f64, |max, x| max.max(x.abs()));
         // How far the coordinates that were made equal to one are from it, at most.
@@ -325,10 +311,10 @@ impl Drawing {
             };
             if let Some([a, b]) = ends(self, &constraint.items) {
                 for axis in axes {
-                    let (a, b) = (root(&parent, 2 * a + axis), root(&parent, 2 * b + axis));
+                    let [a, b] = [a, b].each(|point| equal.of(2 * point + axis));
                     let moved = away[b] + (value_of(self, a) - value_of(self, b)).abs();
                     if a != b && moved <= most {
-                        parent[b] = a;
+                        equal.join([b, a]);
                         away[a] = away[a].max(moved);
                     }
                 }
@@ -348,7 +334,7 @@ impl Drawing {
                 _ => Vec::new(),
             };
             for (place, value) in places {
-                let place = root(&parent, place);
+                let place = equal.of(place);
                 if (value_of(self, place) - value).abs() <= most {
                     given.entry(place).or_insert(value);
                 }
@@ -356,7 +342,7 @@ impl Drawing {
         }
         let old: Vec<f64> = (0..2 * count).map(|place| value_of(self, place)).collect();
         for place in 0..2 * count {
-            let root = root(&parent, place);
+            let root = equal.of(place);
             let value = given.get(&root).copied().unwrap_or(old[root]);
             self.places[place / 2].1[place % 2] = value;
         }

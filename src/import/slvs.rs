@@ -7,6 +7,7 @@
 
 use super::drawing::{Drawing, Finished, SNAP};
 use super::{Figure, Imported, Listed, Places as AllPlaces};
+use crate::order::each_once;
 use crate::places::{Each as _, array};
 use crate::problem::{Item, Problem, Shape};
 use std::collections::HashMap;
@@ -159,10 +160,7 @@ impl<'a> Contents<'a> {
                 && record.whole("type") == POINT_IN_2D
                 && self.request(record.handle(), group.handle()).is_some()
         });
-        let mut planes: Vec<Handle> = entities.map(|record| record.hex("workplane.v")).collect();
-        planes.sort_unstable();
-        planes.dedup();
-        match planes[..] {
+        match each_once(entities.map(|record| record.hex("workplane.v")))[..] {
             [plane] if plane != 0 => Some(plane),
             _ => None,
         }

@@ -88,14 +88,11 @@ mod tests {
         let zero = point(0.0);
         let third = hull(1.0 / 3.0, (1.0f64 / 3.0).next_up());
         let solution = |y: Interval, class| Solution {
-            points: vec![[zero; 3], [point(1.0), zero, zero], [third, y, zero]],
-            objects: Vec::new(),
-            auxiliary: Vec::new(),
-            class,
             width: 1.2e-16,
-            place: None,
-            mirror_of: None,
-            is_degenerate: false,
+            ..Solution::placed(
+                vec![[zero; 3], [point(1.0), zero, zero], [third, y, zero]],
+                class,
+            )
         };
         Outcome {
             mode,

@@ -6,6 +6,7 @@ use super::marks::Marks;
 use crate::complete::Tested;
 use crate::constraint::{Symmetry, symmetry};
 use crate::interval::{Interval, hull};
+use crate::order::each_once;
 use crate::problem::{Problem, Shape, list};
 use crate::system::Located;
 use crate::track::{EndKind, Mode, Outcome, PathEnd, Solution, Space, Status};
@@ -157,10 +158,7 @@ nearer to the figure wanted.";
 
 /// The number of classes of congruent solutions.
 fn classes(outcome: &Outcome) -> usize {
-    let mut classes: Vec<usize> = outcome.solutions.iter().map(|s| s.class).collect();
-    classes.sort_unstable();
-    classes.dedup();
-    classes.len()
+    each_once(outcome.solutions.iter().map(|s| s.class)).len()
 }
 
 /// What is to be said of degenerate solutions, if there are any.

@@ -192,19 +192,8 @@ fn newton(problem: &Problem, starts: usize, seed: u64) -> Vec<Vec<[f64; 3]>> {
 fn holds_newtons(problem: &Problem, result: &Complete, starts: usize) -> Result<usize, String> {
     let figures = newton(problem, starts, 0x5eed);
     for figure in &figures {
-        let solution = Solution {
-            points: figure
-                .iter()
-                .map(|p| p.map(krawl::interval::point))
-                .collect(),
-            objects: Vec::new(),
-            auxiliary: Vec::new(),
-            class: 0,
-            width: 0.0,
-            place: None,
-            mirror_of: None,
-            is_degenerate: false,
-        };
+        let points = figure.iter().map(|p| p.map(krawl::interval::point));
+        let solution = Solution::placed(points.collect(), 0);
         // Floats are good for 1e-6 where the figure is not nearly singular.
         let found = congruent(result, &pairs(&solution), 1e-5);
         if found.is_empty() {

@@ -11,7 +11,7 @@ use krawl::complete::{Options, Status, all};
 use krawl::constraint::symmetry;
 use krawl::interval::Interval;
 use krawl::problem::Problem;
-use krawl::system::Homotopy;
+use krawl::system::{Homotopy, typical_length};
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
@@ -423,7 +423,7 @@ fn a_part_without_a_zero_leaves_nothing() {
 fn the_first_solution_is_in_the_space_that_is_looked_at() {
     let problem = rays(4, "");
     let (_, cover) = proved(&problem);
-    let homotopy = Homotopy::for_sets(&problem).unwrap();
+    let homotopy = Homotopy::for_sets_in(&problem, typical_length(&problem)).unwrap();
     let mirrored = signs_changed(&homotopy, symmetry(&problem), &cover.halves[0].by).unwrap();
     for k in 0..cover.figures.len() {
         let mut other = cover.clone();

@@ -37,3 +37,5 @@ pub mod random;
 pub mod rational;
 #[doc(hidden)]
 pub mod residues;
+#[doc(hidden)]
+pub mod sets;

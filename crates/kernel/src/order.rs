@@ -29,6 +29,14 @@ impl<T> InOrder<T> for [T] {
     }
 }
 
+/// All of some values in order, each once.
+pub fn each_once<T: Ord>(all: impl IntoIterator<Item = T>) -> Vec<T> {
+    let mut all: Vec<T> = all.into_iter().collect();
+    all.sort_unstable();
+    all.dedup();
+    all
+}
+
 /// The numbers below `count` in an order.
 fn sorted(count: usize, order: &dyn Fn(usize, usize) -> Ordering) -> Vec<usize> {
     let mut places: Vec<usize> = (0..count).collect();

@@ -16,7 +16,7 @@ pub use krawl_tracker::{
 #[doc(hidden)]
 pub use krawl_tracker::{
     debug_in_words, decimal, elimination, hexadecimal, linalg, order, places, plan, random,
-    residues, statement,
+    residues, sets, statement,
 };
 
 pub mod blocks;

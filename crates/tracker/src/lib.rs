@@ -12,6 +12,7 @@ extern crate self as krawl;
 #[doc(hidden)]
 pub use krawl_kernel::{
     debug_in_words, decimal, elimination, hexadecimal, linalg, order, places, random, residues,
+    sets,
 };
 pub use krawl_kernel::{equations, interval, rational};
 

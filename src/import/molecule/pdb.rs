@@ -4,6 +4,7 @@
 //! ([`Molecule::notes`]). Bonds are those of the CONECT records where each atom of the chain has one, and are told by covalent radii otherwise.
 
 use super::{Molecule, RADII};
+use crate::order::each_once;
 use std::collections::{HashMap, HashSet};
 
 /// What water is called.
@@ -160,9 +161,7 @@ impl<'a> Chain<'a> {
         let serials: HashMap<&str, usize> = serials.collect();
         let both = |ends: &[&str; 2]| Some([*serials.get(ends[0])?, *serials.get(ends[1])?]);
         let pairs = bonds.iter().filter_map(both).filter(|[a, b]| a != b);
-        let mut own: Vec<[usize; 2]> = pairs.map(|[a, b]| [a.min(b), a.max(b)]).collect();
-        own.sort_unstable();
-        own.dedup();
+        let own = each_once(pairs.map(|[a, b]| [a.min(b), a.max(b)]));
         let bonded: HashSet<usize> = own.iter().flatten().copied().collect();
         let mut notes = Vec::new();
         if has_models {

@@ -72,6 +72,12 @@ pub fn hull(lo: f64, hi: f64) -> Interval {
     checked(lo, hi).expect("an interval's lower bound must not exceed its upper bound")
 }
 
+/// The interval of a radius around a float.
+#[doc(hidden)]
+pub fn around(x: f64, radius: f64) -> Interval {
+    hull((x - radius).next_down(), (x + radius).next_up())
+}
+
 /// The interval from `lo` to `hi`, which may be infinite, where these are an interval's bounds.
 #[cfg(all(hardware_intervals, not(feature = "portable")))]
 #[doc(hidden)]

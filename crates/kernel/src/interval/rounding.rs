@@ -39,6 +39,11 @@ pub fn largest(max: f64, x: f64) -> f64 {
     if x > max || x.is_nan() { x } else { max }
 }
 
+/// The size of the largest of some numbers, or NaN if one of them is.
+pub fn greatest(of: &[f64]) -> f64 {
+    of.iter().fold(0.0, |max, x| largest(max, x.abs()))
+}
+
 /// Whether a number may enter the error analysis: finite and at most 1e75 in size.
 pub fn in_range(x: f64) -> bool {
     x.abs() <= 1e75

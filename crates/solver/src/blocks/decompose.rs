@@ -1,5 +1,6 @@
 //! A square system, cut into blocks.
 
+use crate::order::each_once;
 use petgraph::algo::{maximum_matching, tarjan_scc};
 use petgraph::graph::{DiGraph, NodeIndex, UnGraph};
 
@@ -77,16 +78,12 @@ impl Blocks {
                 out.of_unknown[u] = index;
             }
             let before = members.iter().flat_map(|&e| &equations[e]);
-            let mut before: Vec<usize> = before
-                .filter(|u| !own.contains(u))
-                .map(|&u| out.of_unknown[u])
-                .collect();
-            before.sort_unstable();
-            before.dedup();
+            let before = before.filter(|u| !own.contains(u));
+            let needs = each_once(before.map(|&u| out.of_unknown[u]));
             out.blocks.push(Block {
                 equations: members,
                 unknowns: own,
-                needs: before,
+                needs,
             });
         }
         Some(out)

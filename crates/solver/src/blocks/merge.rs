@@ -5,6 +5,7 @@ use crate::equations::Form;
 use crate::interval::{Interval, Real, enclose, point as exactly};
 use crate::places::Each as _;
 use crate::problem::{Problem, Shape};
+use crate::sets::Joined;
 use crate::system::{Located, Term, locate};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -38,13 +39,6 @@ pub struct System {
     pub nonzero: Vec<Nonzero>,
     /// How many coordinates the unknowns that are coordinates stand for.
     pub merged: usize,
-}
-
-fn root(parent: &[usize], mut x: usize) -> usize {
-    while parent[x] != x {
-        x = parent[x];
-    }
-    x
 }
 
 impl System {
@@ -85,7 +79,7 @@ impl System {
             Entry::Unknown(u) => Some(places + u),
             Entry::Zero => None,
         };
-        let mut parent: Vec<usize> = (0..count).collect();
+        let mut sets = Joined::new(count);
         for (index, equation) in lowered.tail.equations.iter().enumerate() {
             let [single] = equation.products.as_slice() else {
                 continue;
@@ -98,15 +92,15 @@ impl System {
                 continue;
             };
             if equation.right.iter().all(Real::is_zero) && !is_dimension(index) {
-                let (a, b) = (root(&parent, a), root(&parent, b));
+                let [a, b] = [a, b].each(|x| sets.of(x));
                 // The one that comes first stands for both, so that coordinates do.
-                parent[a.max(b)] = a.min(b);
+                sets.join([a.max(b), a.min(b)]);
             }
         }
         let mut number = vec![usize::MAX; count];
         let (mut unknowns, mut values, mut merged) = (Vec::new(), Vec::new(), 0);
         for x in 0..count {
-            if root(&parent, x) != x {
+            if sets.of(x) != x {
                 continue;
             }
             number[x] = unknowns.len();
@@ -130,10 +124,10 @@ impl System {
         // A length that is merged with another stays positive if either has to.
         for x in places..count {
             if lowered.tail.unknowns[x - places].role == Role::Positive {
-                unknowns[number[root(&parent, x)]].role = Role::Positive;
+                unknowns[number[sets.of(x)]].role = Role::Positive;
             }
         }
-        let of = |x: usize| number[root(&parent, x)];
+        let of = |x: usize| number[sets.of(x)];
         let entry = |e: Entry| raw(e).map(of);
         let (mut rows, mut implied) = (Vec::new(), Vec::new());
         for (index, equation) in lowered.tail.equations.iter().enumerate() {

@@ -4,7 +4,7 @@ use super::cut::{Cut, Used};
 use super::local::is_length;
 use super::number::Number;
 use crate::constraint::{Entry, Equation, Form, Nonzero, Product, value};
-use crate::interval::{Interval, Real, hull, point};
+use crate::interval::{Real, point};
 use crate::order::InOrder;
 use crate::places::array;
 use crate::rational::Rational;
@@ -58,7 +58,7 @@ pub fn follow(
         let each = own.iter().enumerate();
         each.map(|(k, &u)| {
             let unit = cut.unit.powi(cut.system.unknowns[u].power);
-            Number::within(entry(found, k) * point(unit))
+            Number::within(found.figure.enclosure(k) * point(unit))
         })
         .collect()
     };
@@ -144,13 +144,6 @@ fn moves(homotopy: &Homotopy) -> bool {
     let zero = point(0.0);
     let mut rights = homotopy.rights.iter();
     rights.any(|right| right.enclosures()[1..].iter().any(|c| *c != zero))
-}
-
-/// An unknown of a figure, in the homotopy's unit.
-fn entry(found: &FigureBox, k: usize) -> Interval {
-    let figure = &found.figure;
-    let around = hull(-figure.radius[k], figure.radius[k]);
-    point(figure.centre[k]) + point(figure.low[k]) + around
 }
 
 /// The block's equations with the numbers that they need; `bent`: one of them may bend.

@@ -10,11 +10,11 @@ use super::visit::{Found, Why};
 use crate::certificate::cover::CoverVerdict;
 use crate::constraint::Symmetry;
 use crate::interval::vector::{cross, dot, minus, unit as direction};
-use crate::interval::{Interval, point};
+use crate::interval::{Interval, around, point};
 use crate::order::InOrder;
 use crate::places::array;
 use crate::problem::Problem;
-use crate::track::{Solution, relative_width};
+use crate::track::Solution;
 use serde::{Deserialize, Serialize};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::Thread;
@@ -378,17 +378,10 @@ impl Complete {
                 ));
             }
             Step::Figure { points, is_flat } => {
-                let width = relative_width(&points, &[]);
                 (result.count, result.reason) = (Some(1), None);
                 result.solutions.push(Solution {
-                    points,
-                    objects: Vec::new(),
-                    auxiliary: Vec::new(),
-                    class: 0,
-                    width,
-                    place: None,
-                    mirror_of: None,
                     is_degenerate: is_flat,
+                    ..Solution::placed(points, 0)
                 });
             }
         }
@@ -583,8 +576,7 @@ fn in_gauge(
             if k >= order.min(d) {
                 return zero;
             }
-            let (x, r) = (figure.centre[p][k], figure.radius);
-            crate::interval::hull((x - r).next_down(), (x + r).next_up())
+            around(figure.centre[p][k], figure.radius)
         })
     };
     let unit = point(search.targets.unit);
@@ -606,7 +598,7 @@ fn in_gauge(
             e2 = cross(e3, e1);
         }
     }
-    let points: Vec<[Interval; 3]> = (0..search.targets.points)
+    let points = (0..search.targets.points)
         .map(|p| {
             let v = from(p);
             let order = reference.iter().position(|&r| r == p).unwrap_or(d);
@@ -620,15 +612,5 @@ fn in_gauge(
             })
         })
         .collect();
-    let width = relative_width(&points, &[]);
-    Some(Solution {
-        points,
-        objects: Vec::new(),
-        auxiliary: Vec::new(),
-        class: 0,
-        width,
-        place: None,
-        mirror_of: None,
-        is_degenerate: false,
-    })
+    Some(Solution::placed(points, 0))
 }

@@ -12,7 +12,7 @@ use super::{Complete, Options, Part, Status, Unserved, Why, all, exact};
 use crate::blocks::{Combined, LeftOut, clusters};
 use crate::order::InOrder;
 use crate::problem::Problem;
-use crate::track::{Solution, relative_width};
+use crate::track::Solution;
 use std::time::Instant;
 
 /// The figures of the whole that are listed at most.
@@ -152,17 +152,7 @@ fn put_together(
         let Some(points) = combined.figure(&combined.choices(number)) else {
             break;
         };
-        let width = relative_width(&points, &[]);
-        let solution = Solution {
-            points,
-            objects: Vec::new(),
-            auxiliary: Vec::new(),
-            class: number as usize,
-            width,
-            place: None,
-            mirror_of: None,
-            is_degenerate: false,
-        };
+        let solution = Solution::placed(points, number as usize);
         if !whole
             .solutions
             .iter()

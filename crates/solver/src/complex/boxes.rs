@@ -19,12 +19,9 @@ pub struct SolutionBox {
 impl SolutionBox {
     /// From what the tracker proved.
     pub fn new(figure: Figure, alone_within: f64) -> Self {
-        let part = |i: usize| {
-            let around = hull(-figure.radius[i], figure.radius[i]);
-            point(figure.centre[i]) + point(figure.low[i]) + around
-        };
+        let parts = 0..figure.centre.len();
         SolutionBox {
-            parts: (0..figure.centre.len()).map(part).collect(),
+            parts: parts.map(|i| figure.enclosure(i)).collect(),
             figure,
             alone_within,
         }

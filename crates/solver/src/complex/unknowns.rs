@@ -6,6 +6,7 @@ use super::lines;
 use super::system::System;
 use super::vector::{Z, cross, dot, minus, plus};
 use crate::interval::DoubleDouble;
+use crate::order::each_once;
 use crate::places::Each as _;
 use crate::problem::Problem;
 use crate::system::Homotopy;
@@ -101,9 +102,7 @@ fn fill(homotopy: &Homotopy, known: &mut [Option<Z>]) {
         for e in 0..m {
             let terms = homotopy.terms(e);
             let entries = terms.iter().flat_map(|term| term.entries()).flatten();
-            let mut open: Vec<usize> = entries.filter(|&i| known[i].is_none()).collect();
-            open.sort_unstable();
-            open.dedup();
+            let open = each_once(entries.filter(|&i| known[i].is_none()));
             let &[unknown] = open.as_slice() else {
                 continue;
             };

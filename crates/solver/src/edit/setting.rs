@@ -1,5 +1,6 @@
 //! Which dimension is to become how long.
 
+use super::ending::Dimension;
 use super::whole::length;
 use crate::constraint::{self, MOST_TURN, Measure};
 use crate::interval::angle::{degrees_of_cosine, direction};
@@ -210,6 +211,17 @@ impl Setting {
     /// An enclosure of the value.
     pub(super) fn value(&self) -> Interval {
         length(&self.target)
+    }
+
+    /// The dimension, which was `from`, where an edit ended before its target, at t, or at it.
+    pub(super) fn at(&self, problem: &Problem, from: Interval, t: Option<Interval>) -> Dimension {
+        let to = self.value();
+        Dimension {
+            index: self.index,
+            from,
+            to,
+            value: t.map_or(to, |t| self.between(problem, t)),
+        }
     }
 
     /// What the dimension is at t on its way from what it is in `problem` to the value: what its kind leads linearly is

@@ -1,6 +1,6 @@
 //! A figure followed as a whole: one up to motions, or any for a certificate.
 
-use super::ending::{Dimension, Edited, Ending, Limit, Orientations};
+use super::ending::{Edited, Ending, Limit, Orientations};
 use super::open::{self, Moved, OpenError};
 use super::parts::MOST_TUBES;
 use super::parts::senses::senses;
@@ -324,19 +324,10 @@ impl Whole {
 
     fn account(&self, settings: &[Setting], run: ArcRun) -> (Edited, Option<Figure>) {
         let t = hull(run.t.0, run.t.1);
-        let dimensions = settings.iter().map(|setting| {
-            let (from, to) = (self.length(setting.index), setting.value());
-            let value = match &run.end {
-                ArcEnd::Reached(_) => to,
-                _ => setting.between(&self.problem, t),
-            };
-            Dimension {
-                index: setting.index,
-                from,
-                to,
-                value,
-            }
-        });
+        let t = (!matches!(run.end, ArcEnd::Reached(_))).then_some(t);
+        let dimensions = settings
+            .iter()
+            .map(|s| s.at(&self.problem, self.length(s.index), t));
         let dimensions = dimensions.collect();
         let (ending, at, figure) = match run.end {
             ArcEnd::Reached(figure) => (Ending::Reached, figure.clone(), Some(figure)),

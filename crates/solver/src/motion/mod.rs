@@ -48,6 +48,7 @@ use crate::edit::{Round, Setting, WayEnd};
 use crate::interval::Interval;
 use crate::interval::vector::distance;
 use crate::order::InOrder;
+use crate::order::each_once;
 use crate::problem::{Decimal, Distance, Item, Point, Problem, Target, counted, list};
 use crate::system::Quantity;
 use crate::track::{Control, Options};
@@ -214,8 +215,7 @@ fn without(
     for name in free {
         indices.push(Setting::find(problem, name).map_err(|error| error.to_string())?);
     }
-    indices.sort_unstable();
-    indices.dedup();
+    let indices = each_once(indices);
     let names = indices.iter().map(|&index| problem.dimension_name(index));
     let quantities = indices.iter().filter_map(|&index| in_place(problem, index));
     let (names, quantities) = (names.collect(), quantities.collect());

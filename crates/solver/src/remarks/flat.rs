@@ -1,6 +1,7 @@
 //! Where the sketch is singular because points are on one line or in one plane, exactly.
 
 use super::{Remark, joined, tetrahedra, triangles};
+use crate::constraint::{cross, dot, is_zero};
 use crate::interval::vector;
 use crate::places::Each as _;
 use crate::problem::{Object, Problem, Shape};
@@ -12,19 +13,6 @@ type Vector = [Rational; 3];
 fn from(problem: &Problem, a: usize, b: usize) -> Vector {
     let [a, b] = [a, b].each(|p| &problem.points[p].sketch);
     std::array::from_fn(|k| b[k].value() - a[k].value())
-}
-
-fn cross(u: &Vector, v: &Vector) -> Vector {
-    let minor = |i: usize, j: usize| &u[i] * &v[j] - &u[j] * &v[i];
-    [minor(1, 2), minor(2, 0), minor(0, 1)]
-}
-
-fn dot(u: &Vector, v: &Vector) -> Rational {
-    &u[0] * &v[0] + &u[1] * &v[1] + &u[2] * &v[2]
-}
-
-fn is_zero(v: &Vector) -> bool {
-    v.iter().all(Rational::is_zero)
 }
 
 /// Whether some vectors span less than the whole plane or space.

@@ -52,7 +52,7 @@ mod zeros;
 #[doc(hidden)]
 pub use self::{
     arguments::{Arguments, Flat, LineName, Sort, Thing},
-    frame::vector,
+    frame::{cross, dot, is_zero, vector},
     kinds::is_opposite_nearer,
     lowering::{Fault, Lowered, MOST_TURN, Record},
     objects::{base_of, own_number},
@@ -120,18 +120,8 @@ pub fn lower(problem: &Problem, sketch: &[[Interval; 3]]) -> Tail {
 /// - Where the middle of a circle is on a chord, it is the chord's middle (`diameters.rs`).
 /// - What is as long as a given length has that length (`subtracted.rs`).
 ///
-/// The equations of distances between points are among them, and come first, if [`has_distances_in_sets`].
-///
-/// # Panics
-/// If the problem has not been checked.
-pub fn lower_for_sets(problem: &Problem) -> Tail {
-    match try_lower_for_sets(problem, |_| Ok(Vec::new())) {
-        Ok((tail, _)) => tail,
-        Err(fault) => panic!("the problem has not been checked: {fault}"),
-    }
-}
-
-/// The same, after `leave_out` has taken equations out where there are more than unknowns.
+/// The equations of distances between points are among them, and come first, if [`has_distances_in_sets`]. `leave_out` takes
+/// equations out where there are more than unknowns.
 #[doc(hidden)]
 pub fn try_lower_for_sets(
     problem: &Problem,

@@ -1,12 +1,12 @@
 //! What constraints mean, kind by kind.
 
-use super::lower_for_sets;
 use super::quadratic::{Entry, Product, difference};
 use super::testing::{Figure, angle, cross, dot, examine, near, read, size};
+use super::try_lower_for_sets;
 use crate::interval::point;
 use crate::places::{Each as _, array};
 use crate::problem::Problem;
-use crate::system::{Edge, Homotopy};
+use crate::system::{Edge, Homotopy, typical_length};
 
 /// A problem in the plane.
 fn plane(points: &str, rest: &str) -> Figure {
@@ -548,7 +548,7 @@ fn sets_have_one_name_for_what_is_equal() {
          [constraints]\nfixed = [\"a\"]\nhorizontal = [[\"a\", \"b\"], [\"c\", \"d\"]]\ncoincident = [[\"b\", \"b2\"]]\n\
          distances = [[\"a\", \"b\", 3], [\"b2\", \"c\", 2], [\"a\", \"c\", 4], [\"c\", \"d\", 5]]\n",
     );
-    let tail = lower_for_sets(&problem);
+    let (tail, _) = try_lower_for_sets(&problem, |_| Ok(Vec::new())).unwrap();
     let left = |e: usize| tail.equations[e].products.clone();
     let at = |point, axis| Entry::Coordinate { point, axis };
     let square = |a, b| Product::new(1, difference(a, b), difference(a, b));
@@ -575,7 +575,7 @@ fn sets_have_one_name_for_what_is_equal() {
     );
     assert!(is_square(3, &[[cx, dx]]), "{:?}", left(3));
     // The search has the same names.
-    let homotopy = Homotopy::for_sets(&problem).unwrap();
+    let homotopy = Homotopy::for_sets_in(&problem, typical_length(&problem)).unwrap();
     assert_eq!(homotopy.edges.len(), 0);
     assert_eq!(homotopy.equations, tail.equations.len());
 }

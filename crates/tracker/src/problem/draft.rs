@@ -515,32 +515,18 @@ pub(super) fn check_names(problem: &super::Problem) -> Result<(), ProblemError> 
             name: object.name.clone(),
             fault: fault.to_owned(),
         };
-        let points: Vec<usize> = match &object.shape {
-            Shape::Line(points) => points.to_vec(),
-            Shape::Plane(points) => points.to_vec(),
-            Shape::FreeLine { .. }
-            | Shape::FreePlane { .. }
-            | Shape::Number { .. }
-            | Shape::Joint { .. } => Vec::new(),
-            Shape::Round { center, .. } => vec![*center],
-            Shape::Arc { center, start, end } => vec![*center, *start, *end],
-            Shape::Body {
-                points,
-                local,
-                place,
-            } => {
-                if points.len() != local.len() {
-                    return Err(fault("there are not as many coordinates as points"));
-                }
-                if place.is_none() && points.len() < problem.dimension {
-                    return Err(fault(match problem.dimension {
-                        2 => "a body without joints has at least two points",
-                        _ => "in space a body without joints has at least three points",
-                    }));
-                }
-                points.clone()
+        let points = object.points();
+        if let Shape::Body { local, place, .. } = &object.shape {
+            if points.len() != local.len() {
+                return Err(fault("there are not as many coordinates as points"));
             }
-        };
+            if place.is_none() && points.len() < problem.dimension {
+                return Err(fault(match problem.dimension {
+                    2 => "a body without joints has at least two points",
+                    _ => "in space a body without joints has at least three points",
+                }));
+            }
+        }
         if points.iter().any(|&p| p >= problem.points.len()) {
             return Err(fault("it has a point that there is not"));
         }

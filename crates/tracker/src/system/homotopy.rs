@@ -101,11 +101,6 @@ impl Homotopy {
 
     /// Sets up the equations for sets of all figures, which mean something at t = 1 alone: vectors of which the lengths are no
     /// dimensions are divided by these, so that where they nearly vanish equations still say something.
-    pub fn for_sets(problem: &Problem) -> Result<Self, GaugeError> {
-        Self::for_sets_in(problem, typical_length(problem))
-    }
-
-    /// The same in a unit of one's own choice.
     ///
     /// # Panics
     /// If `unit` is not a power of two.

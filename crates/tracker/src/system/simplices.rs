@@ -2,6 +2,7 @@
 
 use crate::interval::vector::{cross, dot, minus};
 use crate::interval::{Interval, point};
+use crate::order::each_once;
 
 /// Each point with as many of the points joined to it as there are dimensions, in order, each set once.
 pub fn simplices(
@@ -15,9 +16,7 @@ pub fn simplices(
         joined[b].push(a);
     }
     let mut all: Vec<Vec<usize>> = Vec::new();
-    for (centre, joined) in joined.iter_mut().enumerate() {
-        joined.sort_unstable();
-        joined.dedup();
+    for (centre, joined) in joined.into_iter().map(each_once).enumerate() {
         for (i, &a) in joined.iter().enumerate() {
             for (j, &b) in joined.iter().enumerate().skip(i + 1) {
                 if dimension == 2 {
@@ -33,9 +32,7 @@ pub fn simplices(
     for points in &mut all {
         points.sort_unstable();
     }
-    all.sort_unstable();
-    all.dedup();
-    all
+    each_once(all)
 }
 
 /// The sign of the determinant of the differences of some points, three in the plane and four in space, from the first of

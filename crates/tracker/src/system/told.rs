@@ -575,6 +575,7 @@ mod tests {
     use super::*;
     use crate::interval::checked;
     use crate::problem::Problem;
+    use crate::system::typical_length;
 
     fn ratio(a: i64, b: i64) -> Rational {
         Rational::new(BigInt::from(a), BigInt::from(b))
@@ -610,7 +611,7 @@ mod tests {
     /// Every choice of sides, one after the other, of all equations in one block: how many contradict each other, and the values where they do not.
     fn choices(text: &str) -> (usize, Vec<Vec<(usize, Rational)>>) {
         let problem = Problem::parse(text, "test.toml").unwrap();
-        let homotopy = Homotopy::for_sets(&problem).unwrap();
+        let homotopy = Homotopy::for_sets_in(&problem, typical_length(&problem)).unwrap();
         let all: Vec<usize> = (0..homotopy.equations).collect();
         let ranges = vec![checked(f64::NEG_INFINITY, f64::INFINITY).unwrap(); all.len()];
         let view = View {
@@ -643,7 +644,7 @@ mod tests {
         let text = "name = \"bar\"\ndimension = 2\n[points]\na = [0, 0]\nb = [1, 0]\n[constraints]\n\
                     fixed = [\"a\"]\ny = [[\"b\", 0]]\ndistances = [[\"a\", \"b\", 1]]\n";
         let problem = Problem::parse(text, "bar.toml").unwrap();
-        let homotopy = Homotopy::for_sets(&problem).unwrap();
+        let homotopy = Homotopy::for_sets_in(&problem, typical_length(&problem)).unwrap();
         let m = homotopy.equations;
         let view = View {
             homotopy: &homotopy,

@@ -15,15 +15,12 @@ pub fn observed_solutions(figures: Vec<Vec<[f64; 3]>>, tolerance: f64) -> Vec<So
             mirrored.next()
         })
         .collect();
-    let thin = |((figure, class), mirror_of): ((Vec<[f64; 3]>, usize), Option<usize>)| Solution {
-        points: figure.into_iter().map(|p| p.each(point)).collect(),
-        objects: Vec::new(),
-        auxiliary: Vec::new(),
-        class,
-        width: 0.0,
-        place: None,
-        mirror_of,
-        is_degenerate: false,
+    let thin = |((figure, class), mirror_of): ((Vec<[f64; 3]>, usize), Option<usize>)| {
+        let points = figure.into_iter().map(|p| p.each(point)).collect();
+        Solution {
+            mirror_of,
+            ..Solution::placed(points, class)
+        }
     };
     figures
         .into_iter()

@@ -6,7 +6,7 @@ use super::{
     Control, Driving, LARGEST_SQUARE, Mode, Options, Outcome, Place, Solution, Space, StartError,
     Status, Stop, StopKind, relative_width,
 };
-use crate::interval::{hull, point};
+use crate::interval::point;
 use crate::problem::Problem;
 use crate::system::Homotopy;
 use std::sync::atomic::Ordering;
@@ -134,10 +134,7 @@ fn solution(homotopy: &Homotopy, figure: &Figure, arc: f64) -> Solution {
     for x in points.iter_mut().flatten() {
         *x *= unit;
     }
-    let unknown = |i: usize| {
-        let (x, radius) = (figure.centre[i], figure.radius[i]);
-        point(x) + point(figure.low[i]) + hull(-radius, radius)
-    };
+    let unknown = |i: usize| figure.enclosure(i);
     let objects = homotopy.locate(&points, unknown);
     Solution {
         width: relative_width(&points, &objects),

@@ -30,14 +30,13 @@ pub use control::{Control, Limit, Progress};
 pub use ends::{Away, EndKind, PathEnd};
 pub use first::{First, first};
 pub use options::{Options, Preset};
-#[doc(hidden)]
-pub use outcome::relative_width;
 pub use outcome::{Driving, Mode, Outcome, Place, Solution, Space, Status};
 pub use stop::{Stop, StopKind};
 pub use witness::{TubeSeen, Witness};
 
 use crate::problem::Problem;
 use crate::system::{GaugeError, Homotopy};
+use outcome::relative_width;
 
 /// Why a run could not even start.
 #[derive(Clone, PartialEq, thiserror::Error)]

@@ -116,6 +116,21 @@ pub fn relative_width(points: &[[Interval; 3]], objects: &[Located]) -> f64 {
 }
 
 impl Solution {
+    /// A figure by the coordinates of its points, of a problem of distances alone, that is no path's.
+    #[doc(hidden)]
+    pub fn placed(points: Vec<[Interval; 3]>, class: usize) -> Self {
+        Solution {
+            width: relative_width(&points, &[]),
+            points,
+            objects: Vec::new(),
+            auxiliary: Vec::new(),
+            class,
+            place: None,
+            mirror_of: None,
+            is_degenerate: false,
+        }
+    }
+
     /// The coordinates of a point by its name, in the gauge and the units of the problem, the third
     /// being zero in the plane. `None`: there is no such point.
     pub fn point(&self, problem: &Problem, name: &str) -> Option<&[Interval; 3]> {

@@ -1,5 +1,6 @@
 //! Finding the blocks: maximum matching and strongly connected components.
 
+use crate::order::each_once;
 use petgraph::graph::{DiGraph, NodeIndex};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -138,14 +139,8 @@ impl Ordering {
         };
         for component in in_order(&components, |c| {
             let needed = components[c].equations.iter().flat_map(|&e| used(e));
-            let mut needed: Vec<usize> = needed
-                .filter_map(|u| solved_by[u])
-                .map(|e| component_of[e])
-                .filter(|&other| other != c)
-                .collect();
-            needed.sort_unstable();
-            needed.dedup();
-            needed
+            let needed = needed.filter_map(|u| Some(component_of[solved_by[u]?]));
+            each_once(needed.filter(|&other| other != c))
         }) {
             let Component {
                 equations,
@@ -195,22 +190,6 @@ impl Ordering {
     /// The column of an unknown.
     pub fn column_of(&self, unknown: usize) -> usize {
         self.column_of[unknown]
-    }
-
-    /// Whether the equations have no entries above the diagonal blocks.
-    pub fn is_triangular(&self, equations: &[Vec<usize>]) -> bool {
-        // For each row the end of its block's columns; the ignored equations have all.
-        let ends = self.blocks.iter().scan(self.keys, |end, &size| {
-            *end += size;
-            Some(std::iter::repeat_n(*end, size))
-        });
-        let mut ends: Vec<usize> = ends.flatten().collect();
-        ends.resize(self.unknowns.len(), usize::MAX);
-        let mut rows = equations.iter().enumerate();
-        rows.all(|(e, unknowns)| {
-            let end = ends[self.row_of[e]];
-            unknowns.iter().all(|&u| self.column_of[u] < end)
-        })
     }
 
     /// The pattern as text, X for an entry and a point for none, with names above the columns
@@ -386,6 +365,22 @@ fn in_order(components: &[Component], needed: impl Fn(usize) -> Vec<usize>) -> V
 mod tests {
     use super::*;
 
+    /// Whether the equations have no entries above the diagonal blocks.
+    fn is_triangular(ordering: &Ordering, equations: &[Vec<usize>]) -> bool {
+        // For each row the end of its block's columns; the ignored equations have all.
+        let ends = ordering.blocks.iter().scan(ordering.keys, |end, &size| {
+            *end += size;
+            Some(std::iter::repeat_n(*end, size))
+        });
+        let mut ends: Vec<usize> = ends.flatten().collect();
+        ends.resize(ordering.unknowns.len(), usize::MAX);
+        let mut rows = equations.iter().enumerate();
+        rows.all(|(e, unknowns)| {
+            let end = ends[ordering.row_of[e]];
+            unknowns.iter().all(|&u| ordering.column_of[u] < end)
+        })
+    }
+
     /// Table 1 of 002: names of unknowns, and equations with their unknowns, in its order.
     fn hexahedron() -> (Vec<String>, Vec<(String, Vec<usize>)>) {
         let mut names: Vec<String> = ["l12", "l24", "l41", "x1", "x2", "y2"]
@@ -469,7 +464,7 @@ mod tests {
             sets(reordered.unknowns(), reordered.block_sizes()),
             sets(&expected, ordering.block_sizes())
         );
-        assert!(reordered.is_triangular(&other));
+        assert!(is_triangular(&reordered, &other));
 
         let labels: Vec<&String> = equations.iter().map(|e| &e.0).collect();
         let text = ordering.render(&patterns, &labels, &names);
@@ -533,7 +528,7 @@ D(6,7)      . . . | . . . . . . . . . . . . X X X X X X
             let ignored = [5, 5, 1][key / 2];
             let ordering = Ordering::new(6, &eq9, &[key], &[ignored]).unwrap();
             assert_eq!(ordering.block_sizes(), [1, 2, 2]);
-            assert!(ordering.is_triangular(&eq9));
+            assert!(is_triangular(&ordering, &eq9));
         }
         // Without key unknowns the system is irreducible.
         let whole = Ordering::new(6, &eq9, &[], &[]).unwrap();

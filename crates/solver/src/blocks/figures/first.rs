@@ -6,6 +6,7 @@
 use super::senses::Comparison;
 use super::{Figures, Number};
 use crate::interval::{Interval, point};
+use crate::order::each_once;
 
 /// Choices of figures of the parts of a group that are looked at, at most.
 const MOST: usize = 4000;
@@ -116,12 +117,7 @@ impl Figures {
                 undecided: 0,
             }]);
         }
-        let parts_of = |unknowns: &[usize]| -> Vec<usize> {
-            let mut parts: Vec<usize> = unknowns.iter().filter_map(|&u| part_of[u]).collect();
-            parts.sort_unstable();
-            parts.dedup();
-            parts
-        };
+        let parts_of = |unknowns: &[usize]| each_once(unknowns.iter().filter_map(|&u| part_of[u]));
         // Which group each part is in, by the first part of it.
         let mut group_of: Vec<usize> = (0..self.parts.len()).collect();
         for sense in senses {

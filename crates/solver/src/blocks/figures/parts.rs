@@ -6,6 +6,7 @@ use crate::blocks::number::Number;
 use crate::constraint::Entry;
 use crate::equations::Form;
 use crate::interval::Interval;
+use crate::sets::Joined;
 use std::collections::HashMap;
 
 /// Blocks whose figures hang together, in order, with what is to be looked at once all of them are known.
@@ -20,28 +21,18 @@ pub(super) struct Part {
 pub(super) fn parts_of(cut: &Cut, is_fixed: &[bool]) -> Vec<Part> {
     let count = is_fixed.len();
     // One more, for what is about fixed numbers alone.
-    let mut parent: Vec<usize> = (0..=count).collect();
-    fn root(parent: &[usize], mut x: usize) -> usize {
-        while parent[x] != x {
-            x = parent[x];
-        }
-        x
-    }
-    fn join(parent: &mut [usize], of: &[usize]) -> usize {
-        let Some(&first) = of.first() else {
-            return parent.len() - 1;
-        };
-        for &b in of {
-            let (a, b) = (root(parent, first), root(parent, b));
-            parent[a.max(b)] = a.min(b);
-        }
-        first
-    }
+    let mut sets = Joined::new(count + 1);
+    let mut join = |of: &[usize]| {
+        of.windows(2).for_each(|pair| {
+            sets.join([pair[0], pair[1]]);
+        });
+        of.first().copied().unwrap_or(count)
+    };
     for b in (0..count).filter(|&b| !is_fixed[b]) {
         let needs = cut.blocks.blocks[b].needs.iter().copied();
         let mut of: Vec<usize> = needs.filter(|&need| !is_fixed[need]).collect();
         of.push(b);
-        join(&mut parent, &of);
+        join(&of);
     }
     let blocks_of = |unknowns: &[usize]| -> Vec<usize> {
         let of = unknowns.iter().map(|&u| cut.blocks.of_unknown[u]);
@@ -49,16 +40,16 @@ pub(super) fn parts_of(cut: &Cut, is_fixed: &[bool]) -> Vec<Part> {
     };
     let rows = cut.redundant.iter();
     let rows: Vec<usize> = rows
-        .map(|&row| join(&mut parent, &blocks_of(&cut.system.rows[row].unknowns)))
+        .map(|&row| join(&blocks_of(&cut.system.rows[row].unknowns)))
         .collect();
     let vectors = cut.system.nonzero.iter();
     let vectors = vectors.map(|v| v.unknowns(cut.problem.dimension).collect::<Vec<_>>());
     let vectors: Vec<usize> = vectors
-        .map(|unknowns| join(&mut parent, &blocks_of(&unknowns)))
+        .map(|unknowns| join(&blocks_of(&unknowns)))
         .collect();
     let mut parts: Vec<(usize, Part)> = Vec::new();
     let mut part_of = |b: usize| -> usize {
-        let root = root(&parent, b);
+        let root = sets.of(b);
         let place = parts.iter().position(|(r, _)| *r == root);
         place.unwrap_or_else(|| {
             parts.push((

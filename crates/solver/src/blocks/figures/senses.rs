@@ -10,6 +10,7 @@ use crate::blocks::cut::{Cut, name};
 use crate::blocks::number::Number;
 use crate::constraint::{Arguments, Flat, LineName, Sort, Thing};
 use crate::interval::{Interval, point};
+use crate::order::each_once;
 use crate::places::Each as _;
 use crate::problem::Shape;
 use crate::system::simplices;
@@ -147,7 +148,7 @@ impl Quantity {
             Arrow::To(p) => of_point(p).collect(),
             Arrow::Axis(_) => Vec::new(),
         };
-        let mut out: Vec<usize> = match *self {
+        each_once(match *self {
             Quantity::Turn(u, v) | Quantity::Direction(u, v) => [of_arrow(u), of_arrow(v)].concat(),
             Quantity::Larger(one, other) => [one, other]
                 .into_iter()
@@ -158,10 +159,7 @@ impl Quantity {
                 .collect(),
             Quantity::Volume(points) => points.into_iter().flat_map(of_point).collect(),
             Quantity::Untold => Vec::new(),
-        };
-        out.sort_unstable();
-        out.dedup();
-        out
+        })
     }
 }
 

@@ -74,8 +74,6 @@ pub struct ComplexVerdict {
     pub at_infinity: Vec<(Vec<usize>, usize)>,
     /// The bound on those up to rotation, with those at infinity.
     pub bound: Option<u128>,
-    /// Whether all was claimed.
-    pub claims_all: bool,
     /// Whether solutions are zeros of the equations that paths follow, counted up to signs.
     pub is_general: bool,
     /// The bound that the set cites, if it has as many solutions.
@@ -155,7 +153,6 @@ pub fn verify_complex_set(bytes: &[u8]) -> Result<ComplexVerdict, ComplexSetErro
         real: 0,
         at_infinity: Vec::new(),
         bound: None,
-        claims_all: set.complete,
         is_general: false,
         cited: None,
         flaw: None,

@@ -6,6 +6,7 @@
 
 use super::system::{Form, Product, Row, System};
 use crate::interval::{ZERO, point};
+use crate::order::each_once;
 use crate::system::Homotopy;
 
 /// One component v of a vector with that of its heading u: v = L u.
@@ -28,9 +29,7 @@ impl System {
         if components.is_empty() {
             return Vec::new();
         }
-        let mut lengths: Vec<usize> = components.iter().map(|c| c.length).collect();
-        lengths.sort_unstable();
-        lengths.dedup();
+        let lengths = each_once(components.iter().map(|c| c.length));
         let mut out = Vec::new();
         for sum in self.differences(homotopy) {
             for &length in &lengths {

@@ -624,7 +624,7 @@ impl<'a> Figures<'a> {
         let mut near: Vec<f64> = Vec::with_capacity(m + 1);
         for i in 0..m {
             let x = (figure.figure.centre[i] * PARTS).round() / PARTS;
-            near.push(entry(figure, i).contains(x).then_some(x)?);
+            near.push(figure.figure.enclosure(i).contains(x).then_some(x)?);
         }
         near.push(0.0);
         let at: Vec<Interval> = near.iter().map(|&x| point(x)).collect();
@@ -635,7 +635,7 @@ impl<'a> Figures<'a> {
     /// Whether lengths and radii are positive, what is fixed has its sign and no vector vanishes that must not, if that is certain.
     fn is_proper(&self, figure: &FigureBox) -> Option<bool> {
         let at = |i: usize| match i < self.system.unknowns {
-            true => entry(figure, i),
+            true => figure.figure.enclosure(i),
             false => ZERO,
         };
         let mut is_certain = true;
@@ -682,13 +682,6 @@ impl<'a> Figures<'a> {
     }
 }
 
-/// An unknown of a figure.
-fn entry(of: &FigureBox, i: usize) -> Interval {
-    let figure = &of.figure;
-    let around = hull(-figure.radius[i], figure.radius[i]);
-    point(figure.centre[i]) + point(figure.low[i]) + around
-}
-
 fn solutions(homotopy: &Homotopy, found: &[FigureBox]) -> Vec<Solution> {
     let figures = found.iter().enumerate();
     let figures = figures.map(|(class, figure)| {
@@ -697,14 +690,9 @@ fn solutions(homotopy: &Homotopy, found: &[FigureBox]) -> Vec<Solution> {
         let size = all().fold(0.0, |max: f64, x| max.max(x.mag()));
         let width = all().fold(0.0, |max: f64, x| max.max(x.wid())) / size.max(f64::MIN_POSITIVE);
         Solution {
-            objects: homotopy.locate(&points, |i| entry(figure, i)),
-            auxiliary: Vec::new(),
-            points,
-            class,
+            objects: homotopy.locate(&points, |i| figure.figure.enclosure(i)),
             width,
-            place: None,
-            mirror_of: None,
-            is_degenerate: false,
+            ..Solution::placed(points, class)
         }
     });
     figures.collect()

@@ -5,7 +5,7 @@ use super::system::Row;
 use crate::complete::krawczyk::alone;
 use crate::elimination::invert;
 use crate::interval::rounding::{largest, round_up};
-use crate::interval::{Interval, ZERO, hull, point};
+use crate::interval::{Interval, ZERO, around, point};
 use crate::linalg::nearest_zero;
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
@@ -303,8 +303,7 @@ impl Square<'_> {
 impl Zero {
     /// The range of an unknown.
     pub fn range(&self, k: usize) -> Interval {
-        let (x, r) = (self.centre[k], self.radius);
-        hull((x - r).next_down(), (x + r).next_up())
+        around(self.centre[k], self.radius)
     }
 
     /// An order that does not depend on who found them: by their middles, unknown by unknown.

@@ -2,7 +2,9 @@
 
 use crate::equations;
 use crate::interval::{Interval, ZERO, point};
+use crate::order::each_once;
 use crate::places::Each as _;
+use crate::sets::Joined;
 use crate::system::Homotopy;
 
 /// A difference of two entries, or the number 1.
@@ -40,17 +42,11 @@ pub struct System {
 impl Row {
     /// A row of some products. `zero`: the entry that is the number 0.
     pub fn new(products: Vec<Product>, right: Interval, zero: usize) -> Self {
-        let mut entries: Vec<usize> = products
-            .iter()
-            .flat_map(|p| p.entries())
-            .filter(|&entry| entry != zero)
-            .collect();
-        entries.sort_unstable();
-        entries.dedup();
+        let entries = products.iter().flat_map(|p| p.entries());
         Row {
+            entries: each_once(entries.filter(|&entry| entry != zero)),
             products,
             right,
-            entries,
         }
     }
 
@@ -197,28 +193,18 @@ impl System {
     pub fn names(&self) -> Vec<usize> {
         let zero = self.unknowns;
         let order = |entry: usize| (entry != zero, entry);
-        let mut names: Vec<usize> = (0..=zero).collect();
-        let root = |names: &[usize], mut entry: usize| {
-            while names[entry] != entry {
-                entry = names[entry];
-            }
-            entry
-        };
+        let mut sets = Joined::new(zero + 1);
         for row in &self.rows[..zero] {
             if let [p] = row.products[..]
                 && row.right == ZERO
                 && let (Form::Difference(a, b), Form::One) | (Form::One, Form::Difference(a, b)) =
                     (p.left, p.right)
             {
-                let [a, b] = [a, b].each(|entry| root(&names, entry));
-                let (first, other) = match order(a) < order(b) {
-                    true => (a, b),
-                    false => (b, a),
-                };
-                names[other] = first;
+                let [a, b] = [a, b].each(|entry| sets.of(entry));
+                sets.join(if order(a) < order(b) { [b, a] } else { [a, b] });
             }
         }
-        (0..=zero).map(|entry| root(&names, entry)).collect()
+        (0..=zero).map(|entry| sets.of(entry)).collect()
     }
 
     /// (k, v, u), if a row says v − k u = 0.
@@ -274,6 +260,7 @@ impl System {
 mod tests {
     use super::*;
     use crate::problem::Problem;
+    use crate::system::typical_length;
 
     /// Equations have the names that the search knows, but for those that say that two entries are equal.
     #[test]
@@ -298,7 +285,7 @@ mod tests {
             "steps.toml",
         )
         .unwrap();
-        let homotopy = Homotopy::for_sets(&problem).unwrap();
+        let homotopy = Homotopy::for_sets_in(&problem, typical_length(&problem)).unwrap();
         let system = System::new(&homotopy);
         let names = system.names();
         let renamed = (0..system.unknowns).filter(|&u| names[u] != u).count();

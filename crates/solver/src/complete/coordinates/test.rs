@@ -1,6 +1,5 @@
 //! Equations that were left out, as there are more than unknowns: how far each figure found is from meeting them.
 
-use super::entry;
 use crate::blocks::{Account, LeftOut, Ruler, Verdict, owner_name};
 use crate::constraint::Spare;
 use crate::interval::{Interval, ZERO, point};
@@ -47,7 +46,7 @@ impl Test<'_> {
     fn verdict(&self, spare: &Spare, figure: &FigureBox) -> Verdict {
         let Spare { equation, owner } = spare;
         let unknown = |e| self.homotopy.entry(e);
-        let at = |e| unknown(e).map_or(ZERO, |i| entry(figure, i));
+        let at = |e| unknown(e).map_or(ZERO, |i| figure.figure.enclosure(i));
         let products = equation.products.iter();
         let left = products.fold(ZERO, |sum, product| {
             let half = point(0.5 * f64::from(product.factor));

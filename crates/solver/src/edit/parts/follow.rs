@@ -5,6 +5,7 @@ use super::{End, Known, Parts, Run, Used, moves};
 use crate::constraint::{Entry, Equation, Form, Nonzero, Product, Role, value};
 use crate::interval::{Interval, Real, hull, point};
 use crate::places::array;
+use crate::sets::Joined;
 use crate::system::{Extent, Homotopy, Part, Right};
 use crate::track::arc::{ArcEnd, ArcRun, Figure, Fold};
 use crate::track::certified::arcs;
@@ -92,17 +93,7 @@ impl Parts {
     /// The moving blocks that have to be followed, in groups that have nothing in common but numbers known exactly.
     fn groups(&self, moving: &[bool]) -> Vec<Vec<usize>> {
         let count = moving.len();
-        let mut parent: Vec<usize> = (0..count).collect();
-        fn root(parent: &[usize], mut x: usize) -> usize {
-            while parent[x] != x {
-                x = parent[x];
-            }
-            x
-        }
-        let mut join = |a: usize, b: usize| {
-            let (a, b) = (root(&parent, a), root(&parent, b));
-            parent[a.max(b)] = a.min(b);
-        };
+        let mut sets = Joined::new(count);
         let mut taken: BTreeSet<usize> = (0..count)
             .filter(|&b| moving[b] && !self.is_exact[b])
             .collect();
@@ -112,7 +103,9 @@ impl Parts {
             }
             let of: Vec<usize> = of.iter().copied().filter(|&b| !self.is_exact[b]).collect();
             if let Some(&first) = of.first() {
-                of.iter().for_each(|&b| join(first, b));
+                for &b in &of {
+                    sets.join([b, first]);
+                }
                 taken.extend(of);
             }
         }
@@ -124,13 +117,13 @@ impl Parts {
         for &b in &not_exact {
             for &need in &self.blocks.blocks[b].needs {
                 if !self.is_exact[need] {
-                    join(b, need);
+                    sets.join([b, need]);
                 }
             }
         }
         let mut groups: HashMap<usize, Vec<usize>> = HashMap::new();
         for b in not_exact {
-            groups.entry(root(&parent, b)).or_default().push(b);
+            groups.entry(sets.of(b)).or_default().push(b);
         }
         let mut groups: Vec<Vec<usize>> = groups.into_values().collect();
         groups.sort();

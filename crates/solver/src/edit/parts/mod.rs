@@ -20,7 +20,7 @@ mod words;
 
 use crate::blocks::{Account, Blocks, Combination, Cut, Given, Singular, System, Used, Verdict};
 use crate::constraint::{Entry, Posed, Record, try_lower_all};
-use crate::edit::ending::{Astray, Dimension, Edited, Ending, Keep, Limit, Orientations};
+use crate::edit::ending::{Astray, Edited, Ending, Keep, Limit, Orientations};
 use crate::edit::lowered;
 use crate::edit::open::{Moved, OpenError};
 use crate::edit::segments::{NARROWER, Reversed, first_lost, segments, stop};
@@ -575,19 +575,10 @@ impl Parts {
     fn edited(&self, settings: &[Setting], run: Run, account: Account) -> Edited {
         let t = hull(run.t.0, run.t.1);
         let is_reached = matches!(run.end, End::Reached(_));
-        let dimensions = settings.iter().map(|setting| {
-            let (from, to) = (self.value(setting.index), setting.value());
-            let value = match is_reached {
-                true => to,
-                false => setting.between(&self.problem, t),
-            };
-            Dimension {
-                index: setting.index,
-                from,
-                to,
-                value,
-            }
-        });
+        let t = (!is_reached).then_some(t);
+        let dimensions = settings
+            .iter()
+            .map(|s| s.at(&self.problem, self.value(s.index), t));
         let dimensions = dimensions.collect();
         let (ending, reached) = match run.end {
             End::Reached(figure) => (Ending::Reached, Some(figure)),

@@ -1,6 +1,7 @@
 //! Which points tell by their orientation the senses that constraints leave open, tangents, angles and chirality.
 
 use crate::interval::enclose;
+use crate::order::each_once;
 use crate::places::Each as _;
 use crate::problem::{Item, Problem, Shape};
 use crate::system::{orientation, simplices};
@@ -11,9 +12,8 @@ use std::collections::BTreeSet;
 struct Triples(BTreeSet<Vec<usize>>);
 
 impl Triples {
-    fn put(&mut self, mut points: Vec<usize>) {
-        points.sort_unstable();
-        points.dedup();
+    fn put(&mut self, points: Vec<usize>) {
+        let points = each_once(points);
         if points.len() == 3 {
             self.0.insert(points);
         }
@@ -105,10 +105,7 @@ fn chiralities(problem: &Problem) -> Vec<Vec<usize>> {
         let mut all = simplices(3, problem.points.len(), pairs).into_iter();
         all.find(|set| orientation(&sketch, set) != 0)
     };
-    let mut out: Vec<Vec<usize>> = found.into_iter().flatten().filter_map(first).collect();
-    out.sort_unstable();
-    out.dedup();
-    out
+    each_once(found.into_iter().flatten().filter_map(first))
 }
 
 /// The pairs of points that have a distance.

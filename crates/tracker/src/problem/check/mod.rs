@@ -8,6 +8,7 @@ pub use rigidity::{Rigidity, rigidity};
 pub(super) use sketch::{coincide, collinear};
 
 use super::{DEPENDS, Distance, Point, ProblemError, free_coordinates, list};
+use crate::order::each_once;
 
 /// Most names in one list of a message.
 const LISTED: usize = 12;
@@ -56,9 +57,7 @@ fn over_constrained(found: &Rigidity, points: &[Point], edges: &[[usize; 2]]) ->
             format!("{}-{}", points[a].name, points[b].name)
         })
         .collect();
-    let mut ends: Vec<usize> = found.circuit.iter().flat_map(|&e| edges[e]).collect();
-    ends.sort_unstable();
-    ends.dedup();
+    let ends = each_once(found.circuit.iter().flat_map(|&e| edges[e]));
     let ends: Vec<&str> = ends.iter().map(|&p| points[p].name.as_str()).collect();
     let in_all = match edges.len() - found.rank {
         1 => String::new(),

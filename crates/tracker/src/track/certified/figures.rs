@@ -2,9 +2,8 @@
 
 use super::ledger::{Congruence, is_congruent};
 use super::reasons::undecided;
-use super::solution::{Same, SolutionBox, SolutionProver};
+use super::solution::{Same, SolutionProver};
 use crate::interval::Interval;
-use crate::linalg::Vector;
 use crate::system::Homotopy;
 use crate::track::arc::Figure;
 use crate::track::full::{Equations, InverseMaker};
@@ -14,7 +13,8 @@ use crate::track::full::{Equations, InverseMaker};
 pub struct FigureBox {
     /// The box: one entry per unknown, in the homotopy's unit.
     pub figure: Figure,
-    /// Within this distance of the box's middle, in every entry, there is no other such figure.
+    /// Within this distance of the box's middle, in every entry, there is no other such figure; 0 of flat figures at which
+    /// the equations are dependent, as there are others as near as one likes.
     pub alone_within: f64,
 }
 
@@ -39,18 +39,6 @@ pub enum Relation {
 }
 
 impl FigureBox {
-    pub(super) fn of(found: &SolutionBox) -> Self {
-        let m = found.centre.len() - 2;
-        FigureBox {
-            figure: Figure {
-                centre: found.centre[..m].to_vec(),
-                low: found.low[..m].to_vec(),
-                radius: found.radius[..m].to_vec(),
-            },
-            alone_within: found.alone_within,
-        }
-    }
-
     /// A box with one figure, of which it is not known how far others are.
     pub fn around(ranges: impl IntoIterator<Item = Interval>) -> Self {
         let ranges: Vec<Interval> = ranges.into_iter().collect();
@@ -64,34 +52,6 @@ impl FigureBox {
         }
     }
 
-    /// The coordinates of all points, in the problem's units.
-    pub fn points(&self, homotopy: &Homotopy) -> Vec<[Interval; 3]> {
-        self.to_solution().points(homotopy)
-    }
-
-    fn to_solution(&self) -> SolutionBox {
-        let m = self.figure.centre.len();
-        let vector = |of: &[f64]| {
-            let mut vector = Vector::zeros(m + 2);
-            vector[..m].copy_from_slice(of);
-            vector
-        };
-        SolutionBox {
-            centre: vector(&self.figure.centre),
-            low: vector(&self.figure.low),
-            radius: vector(&self.figure.radius),
-            alone_within: self.alone_within,
-            rising: false,
-            // What is told of such boxes rests on `alone_within` alone, which is zero for flat figures.
-            is_flat: false,
-        }
-    }
-
-    /// Whether two boxes of the same equations hold the same figure, with the same signs.
-    pub(super) fn same(&self, other: &FigureBox) -> Same {
-        self.to_solution().is_same(&other.to_solution(), |_| false)
-    }
-
     /// Whether two boxes of the same equations hold the same figure up to congruence: proved by one's lying where
     /// the other's figure is alone, or by their being disjoint, with all signs of the gauge.
     pub fn relation(&self, other: &FigureBox, homotopy: &Homotopy) -> Relation {
@@ -99,11 +59,10 @@ impl FigureBox {
         if !(fits(self) && fits(other)) {
             return Relation::Unknown;
         }
-        let (one, other) = (self.to_solution(), other.to_solution());
-        match one.is_same(&other, |_| false) {
+        match self.is_same(other, |_| false) {
             Same::Yes => Relation::Congruent,
             Same::Unknown => Relation::Unknown,
-            Same::No => match is_congruent(homotopy, &one, &other) {
+            Same::No => match is_congruent(homotopy, self, other) {
                 Congruence::Yes { .. } => Relation::Congruent,
                 Congruence::No => Relation::Different,
                 Congruence::Unknown | Congruence::Reversed => Relation::Unknown,
@@ -127,8 +86,8 @@ pub fn prove_figure(
     let m = equations.m;
     let mut guess = equations.vector();
     guess[..m].copy_from_slice(near);
-    match prover.prove(&equations, &mut inverter, &guess, (true, false)) {
-        Ok(found) => Ok(FigureBox::of(found)),
+    match prover.prove(&equations, &mut inverter, &guess, false) {
+        Ok(found) => Ok(found.clone()),
         Err(doubt) => Err(undecided(doubt, false, homotopy)),
     }
 }

@@ -19,9 +19,10 @@
 //! `alone_within`. In a tube with the normal c the path P(s) has c·P' = 1, so that wherever t'(s) = 0 the point
 //! (P(s), X'(s)) is a zero of Φ: if it stays within `alone_within`, the fold is the only such place.
 
-use super::link::{Ball, Frame, Tube};
-use crate::interval::rounding::{gamma, in_range, largest, round_up};
-use crate::interval::{Interval, hull, point};
+use super::link::{Frame, Tube};
+use super::proof::zero_near;
+use crate::interval::rounding::{gamma, greatest, in_range, largest, round_up};
+use crate::interval::{around, hull, point};
 use crate::linalg::{Inverter, Matrix, Sparse, Vector};
 use crate::places::Each as _;
 use crate::system::Homotopy;
@@ -141,7 +142,7 @@ impl FoldProver {
                 }
                 prover.residual(equations, c);
                 prover.y.multiply(&prover.f[..n], &mut prover.step);
-                prover.greatest_step(n)
+                greatest(&prover.step[..n])
             },
             |(prover, is_stale), ratio| {
                 for k in 0..=m {
@@ -218,32 +219,14 @@ impl FoldProver {
         // differences (one rounding) or sums of them, but for E', of at most twelve.
         self.y
             .identity_minus_sparse_abs(&self.pattern, &self.values, &self.ones, &mut self.step);
-        let defect = self.greatest_step(n);
+        let defect = greatest(&self.step[..n]);
         let t = self.x[m].abs();
         // All entries of a row, twice for those that come from X and from v.
         let per_entry = gamma(equations.roundings().of_entry_at_fold());
-        let is_free = |end: usize| (end < m) as usize as f64;
         let mut width = Vector::zeros(n);
         for e in 0..m {
-            let (mut size, mut size_v, mut change) = (0.0, 0.0, 0.0);
-            for axis in 0..equations.dimension() {
-                let free = equations.ends[axis][e].each(|end| is_free(end as usize));
-                let free = free[0] + free[1];
-                size += self.d[axis][e].abs() * free;
-                size_v += self.dv[axis][e].abs() * free;
-                change += free * free;
-            }
-            for (half, forms) in equations.tail.products(e) {
-                let free = forms.each(|form| equations.tail.ends(form).each(is_free));
-                let [left, right] = free.each(|ends| ends[0] + ends[1]);
-                let of = |d: &Differences| {
-                    let [l, r] = forms.each(|form| d.forms[form].abs());
-                    half.abs() * (l * right + r * left)
-                };
-                size += of(&self.d);
-                size_v += of(&self.dv);
-                change += 2.0 * half.abs() * left * right;
-            }
+            let (size, change) = equations.sizes_at(e, &self.d, 0.0);
+            let (size_v, _) = equations.sizes_at(e, &self.dv, 0.0);
             let (slope, slope_radius) = equations.slope_of_length(e, t);
             // |E''| for |t| below this t and 1 more: the box is no wider (`alone_within` ≤ 1).
             let curvature = homotopy.rights[e].enclose_curvature(hull(-t - 1.0, t + 1.0));
@@ -256,31 +239,23 @@ impl FoldProver {
         let normal: f64 = c.iter().map(|c| c.abs()).sum();
         self.bound[2 * m] = per_entry * normal;
         self.y.multiply_abs(&self.bound[..n], &mut self.step);
-        let rounding = self.greatest_step(n);
+        let rounding = greatest(&self.step[..n]);
         // The ones of I pass through as many sums as the products that they are added to.
         let q0 = round_up(
             defect + rounding + gamma(n + 4),
             equations.roundings().of_contraction_at_fold(),
         );
         self.y.multiply_abs(&width[..n], &mut self.step);
-        let kappa = round_up(self.greatest_step(n), n + 30);
+        let kappa = round_up(greatest(&self.step[..n]), n + 30);
         self.contraction = (q0, kappa);
         if !(q0 < 0.5 && in_range(kappa)) {
             return None;
         }
-        let alone_within = (0.9 * (0.9 - q0) / kappa).min(1.0);
-
         self.bound_residual(equations, homotopy, c);
         self.y.multiply_abs(&self.f[..n], &mut self.step);
-        let step = round_up(self.greatest_step(n), n + 2);
-        let q = round_up(q0 + kappa * alone_within, 4);
-        let all = round_up(step / (1.0 - q), 60);
-        if !(q < 1.0 && all < 0.99 * alone_within) {
-            return None;
-        }
-        // |x* − x| ≤ |Y Φ(x)| + |M| |x* − x|, entry by entry, with |M| at the distance just proved.
-        let near = round_up((q0 + kappa * all) * all, 6);
-        let radius = |k: usize| round_up(self.step[k] + near, n + 8);
+        let step = &self.step[..n];
+        let (alone_within, radius) = zero_near((q0, kappa, 1.0), step, |all| all).ok()?;
+        let radius = |k: usize| radius(step[k]);
         let t = around(self.x[m], radius(m));
         Some(Fold {
             figure: Figure {
@@ -300,11 +275,6 @@ impl FoldProver {
     #[cfg(test)]
     pub fn test(&self) -> (&Matrix, (f64, f64)) {
         (&self.y, self.contraction)
-    }
-
-    fn greatest_step(&self, n: usize) -> f64 {
-        let step = self.step[..n].iter();
-        step.fold(0.0, |a, &b| largest(a, b.abs()))
     }
 
     /// |Φ| at the point reached, with all that is not known of it, into `f`.
@@ -342,22 +312,6 @@ impl FoldProver {
         let along = terms.fold(point(-1.0), |sum, (&c, &v)| sum + point(c) * point(v));
         self.f[2 * m] = along.mag();
     }
-}
-
-/// The interval of this radius around a float.
-fn around(x: f64, radius: f64) -> Interval {
-    hull((x - radius).next_down(), (x + radius).next_up())
-}
-
-/// The point (X, t) of a fold as a box.
-pub fn ball_of(fold: &Fold, equations: &Equations) -> Ball {
-    let m = equations.m;
-    let mut ball = Ball::new(equations);
-    ball.centre[..m].copy_from_slice(&fold.figure.centre);
-    ball.radius[..m].copy_from_slice(&fold.figure.radius);
-    ball.centre[m] = fold.t.mid();
-    ball.radius[m] = fold.t.rad();
-    ball
 }
 
 /// Proves that between two parameters of a tube, in whose cross-sections it was sought, the fold is the

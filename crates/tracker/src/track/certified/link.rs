@@ -2,8 +2,10 @@
 
 use super::proof::Proof;
 use crate::interval::rounding::{gamma, largest, round_up};
+use crate::interval::{Interval, hull, point};
 use crate::linalg::{LANE, Matrix, Vector};
 use crate::places::{Each as _, array};
+use crate::track::arc::Figure;
 use crate::track::events::TimeAlong;
 use crate::track::full::{Equations, Local, ORDER, Preconditioner, dot};
 
@@ -101,6 +103,21 @@ impl Ball {
         self.centre.copy_from_slice(&other.centre);
         self.low.copy_from_slice(&other.low);
         self.radius.copy_from_slice(&other.radius);
+    }
+
+    /// Becomes the box of a figure and of t.
+    pub fn hold(&mut self, figure: &Figure, t: Interval) {
+        let m = figure.centre.len();
+        self.centre[..m].copy_from_slice(&figure.centre);
+        self.low[..m].copy_from_slice(&figure.low);
+        self.radius[..m].copy_from_slice(&figure.radius);
+        (self.centre[m], self.low[m], self.radius[m]) = (t.mid(), 0.0, t.rad());
+    }
+
+    /// An entry.
+    pub fn enclosure(&self, entry: usize) -> Interval {
+        let radius = self.radius[entry];
+        point(self.centre[entry]) + point(self.low[entry]) + hull(-radius, radius)
     }
 
     /// Whether the middle has more digits than floats have.

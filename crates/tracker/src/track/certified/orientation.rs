@@ -6,6 +6,7 @@
 use super::link::{Frame, Tube};
 use super::piece::{Along, Piece};
 use crate::linalg::Vector;
+use crate::order::each_once;
 use crate::places::{Each as _, array};
 use crate::system::{Extent, Homotopy, simplices};
 use crate::track::arc::{Figure, Kept, Orientation};
@@ -47,8 +48,7 @@ impl Orientations {
         for points in &mut all {
             points.sort_unstable();
         }
-        all.sort_unstable();
-        all.dedup();
+        let all = each_once(all);
         let entry = |p: usize, axis: usize| {
             let unknown = homotopy.coordinate(p, axis);
             unknown.unwrap_or(homotopy.equations + 1) as u32

@@ -1,7 +1,8 @@
 //! What is proved of a tube, and how it follows from a contraction, in either space.
 
+use super::reasons::Doubt;
 use super::shortfall::{MAX_CONTRACTION, Shortfall};
-use crate::interval::rounding::round_up;
+use crate::interval::rounding::{greatest, round_up};
 
 /// What is proved of a tube.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -73,6 +74,53 @@ impl Contraction {
             distance,
         })
     }
+
+    /// What is proved of a tube of the half length `h` in whose box this holds: the path's derivative is that near to ẑ', of
+    /// which, and of A, the sizes are known. `normal`: Σ |c_i| u_i.
+    pub fn proof(
+        self,
+        h: f64,
+        slope_distance: f64,
+        (slope, moving): (f64, f64),
+        normal: f64,
+    ) -> Result<Proof, Shortfall> {
+        // Otherwise no tube after this one could be proved to go the same way.
+        let direction = slope_distance * normal;
+        let is_known = direction <= 0.5;
+        if !is_known {
+            return Err(Shortfall::Direction(direction));
+        }
+        Ok(Proof {
+            h,
+            r: self.r,
+            distance: self.distance,
+            slope_distance,
+            q: self.q,
+            slope,
+            moving,
+        })
+    }
+}
+
+/// The end of Krawczyk's test at a point x with the norm max |w_i|: with |I − Y Φ'(x + w)| ≤ q₀ + κ |w| and a bound on |Y Φ(x)|,
+/// entry by entry, how far around x there is no more than one zero (at most `most`), and how far one is in an entry,
+/// by that bound for it. `reach`: what is to be within that distance if the zero is so far from x.
+pub fn zero_near(
+    (q0, kappa, most): (f64, f64, f64),
+    step: &[f64],
+    reach: impl FnOnce(f64) -> f64,
+) -> Result<(f64, impl Fn(f64) -> f64), Doubt> {
+    let n = step.len();
+    let alone = (0.9 * (0.9 - q0) / kappa).min(most);
+    let q = round_up(q0 + kappa * alone, 4);
+    let all = round_up(round_up(greatest(step), n + 2) / (1.0 - q), 60);
+    let radius = reach(all);
+    if !(q < 1.0 && radius < 0.99 * alone) {
+        return Err(Doubt::Wide { radius, alone });
+    }
+    // |x* − x| ≤ |Y Φ(x)| + |M| |x* − x|, entry by entry, with |M| at the distance just proved.
+    let near = round_up((q0 + kappa * all) * all, 6);
+    Ok((alone, move |step: f64| round_up(step + near, n + 8)))
 }
 
 /// [`longest`] tries so many lengths.

@@ -306,7 +306,7 @@ mod tests {
         let mut prover = SolutionProver::new(&homotopy, &equations);
         let guess = equations.vector();
         let doubt = prover
-            .prove(&equations, &mut inverter, &guess, (true, false))
+            .prove(&equations, &mut inverter, &guess, false)
             .unwrap_err();
         assert_eq!(doubt, Doubt::Singular(0.0));
         let reason = undecided(doubt, false, &homotopy);

@@ -1,30 +1,14 @@
 //! Boxes around the points of the path with t = 1.
 
+use super::figures::FigureBox;
+use super::proof::zero_near;
 use super::reasons::Doubt;
-use crate::interval::rounding::{gamma, largest, round_up};
-use crate::interval::{Interval, hull, point};
+use crate::interval::rounding::{gamma, greatest, round_up};
+use crate::interval::{Interval, ZERO, hull, point};
 use crate::linalg::Vector;
 use crate::places::Each as _;
 use crate::system::{Homotopy, Located};
 use crate::track::full::{Equations, InverseMaker, Local, Tail};
-
-/// A box around a figure that meets the dimensions, proved to hold exactly one.
-#[derive(Debug, Clone)]
-pub struct SolutionBox {
-    /// The middle: (X, 1) in the homotopy's unit.
-    pub centre: Vector,
-    /// The low words of the middle in extended precision (it is `centre` + `low`); otherwise zero.
-    pub low: Vector,
-    /// How far the exact solution may be from it, entry by entry.
-    pub radius: Vector,
-    /// Within this distance of the middle, in every entry, there is no other solution.
-    pub alone_within: f64,
-    /// Whether t rises through 1 where the path meets it.
-    pub rising: bool,
-    /// Whether it is a flat figure at which the equations are dependent: then others are as near as one likes, which
-    /// are not on the path, and `alone_within` is zero.
-    pub is_flat: bool,
-}
 
 /// Whether two boxes hold the same solution.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -52,7 +36,7 @@ pub struct SolutionProver {
     /// E(t) of every equation there.
     targets: Vec<Interval>,
     /// The box proved last.
-    found: SolutionBox,
+    found: FigureBox,
 }
 
 impl SolutionProver {
@@ -69,14 +53,7 @@ impl SolutionProver {
             v: equations.vector(),
             t: 1.0,
             targets: homotopy.rights.iter().map(|e| e.at_target()).collect(),
-            found: SolutionBox {
-                centre: equations.vector(),
-                low: equations.vector(),
-                radius: equations.vector(),
-                alone_within: 0.0,
-                rising: false,
-                is_flat: false,
-            },
+            found: FigureBox::around(vec![ZERO; equations.m]),
         }
     }
 
@@ -104,15 +81,14 @@ impl SolutionProver {
     /// |I − Y J(x + w)| ≤ q₀ + κ |w|, so that there is at most one solution for |w| < (1 − q₀)/κ,
     /// and exactly one, at most |Y F(x)|/(1 − q) away, where that is small enough.
     ///
-    /// `rising`: whether t is rising where the path meets t = 1. `extended`: whether x and F(x) are to be
-    /// taken in extended precision; everything else bears relative errors of 2⁻⁵³.
+    /// `extended`: whether x and F(x) are to be taken in extended precision; everything else bears relative errors of 2⁻⁵³.
     pub fn prove(
         &mut self,
         equations: &Equations,
         inverter: &mut InverseMaker,
         guess: &[f64],
-        (rising, extended): (bool, bool),
-    ) -> Result<&SolutionBox, Doubt> {
+        extended: bool,
+    ) -> Result<&FigureBox, Doubt> {
         let (m, n) = (equations.m, equations.n());
         let local = &mut self.local;
         local.z[0].copy_from_slice(guess);
@@ -138,36 +114,25 @@ impl SolutionProver {
         if !(q0 < 0.5 && kappa.is_finite()) {
             return Err(Doubt::Contraction(q0));
         }
-        let alone_within = (0.9 * (0.9 - q0) / kappa).min(1e30);
-
         self.bound_residual(equations, extended);
         let local = &self.local;
         self.f[m] = 0.0;
         local.y.multiply_abs(&self.f[..m], &mut self.v);
-        let step = round_up(greatest(&self.v[..n]), n + 2);
-        let q = round_up(q0 + kappa * alone_within, 4);
-        let all = round_up(step / (1.0 - q), 60);
         // The box itself, as it is printed, has to lie where its solution is alone.
-        let printed = (0..m).fold(all, |max, i| {
-            max.max(all + outward(local.z[0][i], local.low[i], all))
-        });
-        if !(q < 1.0 && printed < 0.99 * alone_within) {
-            return Err(Doubt::Wide {
-                radius: printed,
-                alone: alone_within,
-            });
+        let printed = |all: f64| {
+            let entry = |i: usize| all + outward(local.z[0][i], local.low[i], all);
+            (0..m).fold(all, |max, i| max.max(entry(i)))
+        };
+        let test = (q0, kappa, 1e30);
+        let (alone_within, radius) = zero_near(test, &self.v[..n], printed)?;
+        let figure = &mut self.found.figure;
+        for (r, v) in figure.radius.iter_mut().zip(self.v.iter()) {
+            *r = radius(*v);
         }
-        // |x* − x| ≤ |Y F(x)| + |M| |x* − x|, entry by entry, with |M| at the distance just proved.
-        let near = round_up((q0 + kappa * all) * all, 6);
-        let found = &mut self.found;
-        found.radius.fill(0.0);
-        for (r, v) in found.radius[..m].iter_mut().zip(self.v.iter()) {
-            *r = round_up(v + near, n + 8);
-        }
-        found.centre.copy_from_slice(&local.z[0]);
-        found.low.copy_from_slice(&local.low);
-        (found.alone_within, found.rising) = (alone_within, rising);
-        Ok(found)
+        figure.centre.copy_from_slice(&local.z[0][..m]);
+        figure.low.copy_from_slice(&local.low[..m]);
+        self.found.alone_within = alone_within;
+        Ok(&self.found)
     }
 
     /// q₀ and κ at the point of `local`.
@@ -176,26 +141,10 @@ impl SolutionProver {
         let local = &self.local;
         // q₀: I − Y [J; e_t], and the rounding of its computation and of J's entries.
         let per_entry = gamma(equations.roundings().of_entry_at_point());
-        let is_free = |end: usize| (end < n) as usize as f64;
         let (rounding, width) = (&mut self.rounding, &mut self.width);
         for e in 0..m {
             let slope = local.lengths.terms[1][e].abs();
-            let (mut size, mut change) = (slope, 0.0);
-            for axis in 0..equations.dimension() {
-                let free = equations.ends[axis][e].each(|end| is_free(end as usize));
-                let free = free[0] + free[1];
-                size += local.d[0][axis][e].abs() * free;
-                // |w_i − w_j| times the row sum of the entry's two columns.
-                change += free * free;
-            }
-            for (half, forms) in equations.tail.products(e) {
-                // The same for a product of two factors.
-                let free = forms.each(|form| equations.tail.ends(form).each(is_free));
-                let [left, right] = free.each(|ends| ends[0] + ends[1]);
-                let value = |form: usize| local.d[0].forms[form].abs();
-                size += half.abs() * (value(forms[0]) * right + value(forms[1]) * left);
-                change += 2.0 * half.abs() * left * right;
-            }
+            let (size, change) = equations.sizes_at(e, &local.d[0], slope);
             rounding[e] = per_entry * size;
             width[e] = change;
         }
@@ -262,41 +211,44 @@ impl SolutionProver {
     }
 }
 
-impl SolutionBox {
+impl FigureBox {
     /// The greatest distance of an entry of the middle from that of another box.
-    pub fn distance(&self, other: &SolutionBox) -> f64 {
+    pub(super) fn distance(&self, other: &FigureBox) -> f64 {
+        let (one, other) = (&self.figure, &other.figure);
         let entry = |i: usize| {
-            let (high, low) = (self.centre[i] - other.centre[i], self.low[i] - other.low[i]);
+            let (high, low) = (one.centre[i] - other.centre[i], one.low[i] - other.low[i]);
             (high + low).abs()
         };
-        (0..self.centre.len()).map(entry).fold(0.0, f64::max)
+        (0..one.centre.len()).map(entry).fold(0.0, f64::max)
     }
 
     /// The greatest radius of an entry.
-    pub fn greatest_radius(&self) -> f64 {
-        self.radius.iter().fold(0.0, |a: f64, &b| a.max(b))
+    pub(super) fn greatest_radius(&self) -> f64 {
+        let radii = self.figure.radius.iter();
+        radii.fold(0.0, |a: f64, &b| a.max(b))
     }
 
     /// How far an entry reaches from the middle where the box is printed.
     fn reach(&self, i: usize) -> f64 {
-        self.radius[i] + outward(self.centre[i], self.low[i], self.radius[i])
+        let of = &self.figure;
+        of.radius[i] + outward(of.centre[i], of.low[i], of.radius[i])
     }
 
     /// Whether the other box holds the same solution, after changing the sign of this one's
     /// entries where `mirror` says so.
-    pub fn is_same(&self, other: &SolutionBox, mirror: impl Fn(usize) -> bool) -> Same {
-        let m = self.centre.len() - 2;
+    pub(super) fn is_same(&self, other: &FigureBox, mirror: impl Fn(usize) -> bool) -> Same {
+        let (one, two) = (&self.figure, &other.figure);
         let (mut inside, mut apart) = (true, false);
-        for i in 0..m {
+        for i in 0..one.centre.len() {
             let sign = if mirror(i) { -1.0 } else { 1.0 };
-            let high = sign * self.centre[i] - other.centre[i];
-            let low = sign * self.low[i] - other.low[i];
+            let high = sign * one.centre[i] - two.centre[i];
+            let low = sign * one.low[i] - two.low[i];
             let distance = (high + low).abs();
             // Each difference is rounded relatively to itself, then their sum: a factor covers them.
             let slack = 4.0 * f64::EPSILON * (high.abs() + low.abs() + distance);
             let radii = self.reach(i) + other.reach(i) + slack;
             apart |= distance > round_up(radii, 8);
-            inside &= round_up(distance + self.radius[i] + slack, 4) < other.alone_within;
+            inside &= round_up(distance + one.radius[i] + slack, 4) < other.alone_within;
             if apart && !inside {
                 break;
             }
@@ -310,9 +262,9 @@ impl SolutionBox {
     }
 
     /// Whether none of the first unknowns, with some signs changed, is known to differ.
-    pub fn may_be(
+    pub(super) fn may_be(
         &self,
-        other: &SolutionBox,
+        other: &FigureBox,
         mirror: impl Fn(usize) -> bool,
         first: usize,
     ) -> bool {
@@ -320,19 +272,20 @@ impl SolutionBox {
     }
 
     /// Whether an unknown, with its sign changed here if `mirror`, is known to differ.
-    pub fn differs(&self, other: &SolutionBox, i: usize, mirror: bool) -> bool {
+    pub(super) fn differs(&self, other: &FigureBox, i: usize, mirror: bool) -> bool {
+        let (one, two) = (&self.figure, &other.figure);
         let sign = if mirror { -1.0 } else { 1.0 };
-        let distance = (sign * self.centre[i] - other.centre[i]).abs();
-        let low = self.low[i].abs() + other.low[i].abs();
-        // As in [`SolutionBox::is_same`].
+        let distance = (sign * one.centre[i] - two.centre[i]).abs();
+        let low = one.low[i].abs() + two.low[i].abs();
+        // As in [`FigureBox::is_same`].
         let slack = 4.0 * f64::EPSILON * (distance + low);
         distance > round_up(self.reach(i) + other.reach(i) + low + slack, 8)
     }
 
     /// How far the exact solution may be from the upper words of the middle alone.
-    pub fn radius_of_centre(&self) -> Vector {
-        let mut radius = self.radius.clone();
-        for (radius, low) in radius.iter_mut().zip(self.low.iter()) {
+    pub(super) fn radius_of_centre(&self) -> Vec<f64> {
+        let mut radius = self.figure.radius.clone();
+        for (radius, low) in radius.iter_mut().zip(&self.figure.low) {
             if *low != 0.0 {
                 *radius = round_up(*radius + low.abs(), 1);
             }
@@ -340,7 +293,7 @@ impl SolutionBox {
         radius
     }
 
-    /// The coordinates of all points in the problem's units.
+    /// The coordinates of all points, in the problem's units.
     pub fn points(&self, homotopy: &Homotopy) -> Vec<[Interval; 3]> {
         let coordinate = |i: usize| {
             let x = self.entry(i);
@@ -353,7 +306,8 @@ impl SolutionBox {
 
     /// An unknown, in the homotopy's unit.
     fn entry(&self, i: usize) -> Interval {
-        let (x, low, r) = (self.centre[i], self.low[i], self.radius[i]);
+        let of = &self.figure;
+        let (x, low, r) = (of.centre[i], of.low[i], of.radius[i]);
         if low == 0.0 && r == 0.0 {
             return point(x);
         }
@@ -363,23 +317,18 @@ impl SolutionBox {
     }
 
     /// The unknowns beside the points' coordinates, in the homotopy's unit.
-    pub fn auxiliary(&self, homotopy: &Homotopy) -> Vec<Interval> {
+    pub(super) fn auxiliary(&self, homotopy: &Homotopy) -> Vec<Interval> {
         let unknowns = homotopy.auxiliary_unknowns();
         unknowns.map(|i| self.entry(i)).collect()
     }
 
     /// Where the problem's objects are, given all points in the problem's units.
-    pub fn objects(&self, homotopy: &Homotopy, points: &[[Interval; 3]]) -> Vec<Located> {
+    pub(super) fn objects(&self, homotopy: &Homotopy, points: &[[Interval; 3]]) -> Vec<Located> {
         homotopy.locate(points, |i| self.entry(i))
     }
 }
 
-/// The greatest of some sizes; NaN if one of them is.
-fn greatest(v: &[f64]) -> f64 {
-    v.iter().fold(0.0, |max, &x| largest(max, x))
-}
-
-/// More than [`SolutionBox::points`] adds to an entry by rounding outwards: twice two roundings of
+/// More than [`FigureBox::points`] adds to an entry by rounding outwards: twice two roundings of
 /// numbers no larger than this, ε each.
 fn outward(x: f64, low: f64, radius: f64) -> f64 {
     5.0 * f64::EPSILON * (x.abs() + low.abs() + radius) + f64::MIN_POSITIVE
@@ -399,9 +348,8 @@ mod tests {
         let homotopy = Homotopy::new(&Problem::read(path).unwrap()).unwrap();
         let equations = Equations::new(&homotopy);
         let mut one = SolutionProver::new(&homotopy, &equations).found;
-        let m = equations.m;
-        one.centre[..m].fill(1.0);
-        one.radius[..m].fill(1e-28);
+        one.figure.centre.fill(1.0);
+        one.figure.radius.fill(1e-28);
         one.alone_within = 1e-20;
         let (mut apart, mut overlapping) = (0, 0);
         for off in 0..60 {
@@ -413,10 +361,10 @@ mod tests {
                 (-1e-17, 9.9 * f64::EPSILON),
             ] {
                 let mut other = one.clone();
-                one.radius[..m].fill(r);
-                other.radius[..m].fill(r);
-                other.centre[0] += off as f64 * f64::EPSILON;
-                other.low[0] = low;
+                one.figure.radius.fill(r);
+                other.figure.radius.fill(r);
+                other.figure.centre[0] += off as f64 * f64::EPSILON;
+                other.figure.low[0] = low;
                 let (p, q) = (one.points(&homotopy), other.points(&homotopy));
                 let mut pairs = p.iter().flatten().zip(q.iter().flatten());
                 let disjoint = pairs.any(|(p, q)| p.sup() < q.inf() || q.sup() < p.inf());

@@ -15,11 +15,11 @@ mod test;
 mod two_ways;
 mod words;
 
-use super::figures::FigureBox;
 use super::ledger::Ledger;
 use super::link::{Ball, Tube};
 use super::reasons::Rejection;
 use super::solution::SolutionProver;
+use crate::interval::ZERO;
 use crate::interval::rounding::round_up;
 use crate::linalg::Vector;
 use crate::system::Homotopy;
@@ -119,7 +119,7 @@ pub fn track<const N: usize, T: Test<N>>(
         witness.end(&status, &classes);
     }
     if let Some(seen) = &mut control.figures {
-        seen.solutions = tracker.ledger.found().iter().map(FigureBox::of).collect();
+        seen.solutions = tracker.ledger.found().to_vec();
     }
     let (plan_changes, driving) = tracker.test.plans();
     Outcome {
@@ -200,10 +200,7 @@ impl<'a, const N: usize, T: Test<N>> Tracker<'a, N, T> {
         let equations = Equations::new(&homotopy);
         let vector = || equations.vector();
         let mut sketch = Ball::new(&equations);
-        for (i, x) in homotopy.sketch_of_unknowns().enumerate() {
-            sketch.centre[i] = x.mid();
-            sketch.radius[i] = x.rad();
-        }
+        sketch.hold(&Figure::of_sketch(&homotopy), ZERO);
         let size_of_sketch = size_of(&homotopy, &sketch.centre[..]);
         Tracker {
             inverter: equations.inverter(),
@@ -419,10 +416,7 @@ impl<'a, const N: usize, T: Test<N>> Tracker<'a, N, T> {
             exit: tube.exit_at,
         };
         let found = self.ledger.found()[known..].iter();
-        let solutions = found.map(|found| {
-            let radius = found.radius_of_centre()[..n - 1].to_vec();
-            (&found.centre[..n - 1], radius)
-        });
+        let solutions = found.map(|found| (&found.figure.centre[..], found.radius_of_centre()));
         if T::SPACE == Space::Full {
             witness.tube(seen);
             solutions.for_each(|(centre, radius)| witness.solution(centre, &radius));
@@ -454,16 +448,13 @@ impl<'a, const N: usize, T: Test<N>> Tracker<'a, N, T> {
 
     /// Begins anew: from another figure, or with other lengths in the homotopy.
     fn begin(&mut self, start: &Figure) {
-        let m = self.equations.m;
         self.equations.set_rights(&self.homotopy);
         self.ledger.begin(&self.homotopy);
         if self.extension.is_on() {
             self.test.set_extended(false);
         }
         self.extension = Extension::default();
-        self.sketch.centre[..m].copy_from_slice(&start.centre);
-        self.sketch.low[..m].copy_from_slice(&start.low);
-        self.sketch.radius[..m].copy_from_slice(&start.radius);
+        self.sketch.hold(start, ZERO);
         if let Some(arc) = &mut self.arc {
             arc.begin(start);
             if !self.homotopy.tail.is_empty() {

@@ -9,7 +9,7 @@ use super::newton::{End, UNTIL, Until};
 use super::preconditioner::Preconditioner;
 use super::refine::{RefineError, SHRINKS};
 use super::tail::Tail;
-use crate::interval::rounding::{largest, round_up};
+use crate::interval::rounding::{greatest, round_up};
 use crate::interval::{DoubleDouble, gamma_double};
 use crate::linalg::Vector;
 use crate::places::Each as _;
@@ -249,8 +249,7 @@ impl<const N: usize, Y: Preconditioner> Local<N, Y> {
     fn solve_for_correction(&mut self, equations: &Equations, entries: usize) -> f64 {
         self.y
             .solve(equations, &self.f[..equations.m], &mut self.delta);
-        let sizes = self.delta[..entries].iter();
-        sizes.fold(0.0, |size, x| largest(size, x.abs()))
+        greatest(&self.delta[..entries])
     }
 
     /// Makes the correction in the first `entries`.

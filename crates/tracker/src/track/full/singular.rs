@@ -1,7 +1,7 @@
 //! How near to singular a Jacobian is, and how far a prediction was off: for the reasons of stopped runs.
 
 use super::{Equations, Local, Preconditioner};
-use crate::interval::rounding::largest;
+use crate::interval::rounding::greatest;
 use crate::linalg::extreme_pivots;
 
 impl<const N: usize, Y: Preconditioner> Local<N, Y> {
@@ -28,7 +28,6 @@ impl<const N: usize, Y: Preconditioner> Local<N, Y> {
 
     /// The largest entry of the residual from which the last correction was computed.
     pub fn largest_residual(&self, equations: &Equations) -> f64 {
-        let sizes = self.f[..equations.m].iter();
-        sizes.fold(0.0, |size, x| largest(size, x.abs()))
+        greatest(&self.f[..equations.m])
     }
 }

@@ -8,6 +8,7 @@
 use super::super::newton::{KNOWN, Square};
 use super::super::system::{Form, Row};
 use crate::complete::model::Number;
+use crate::order::each_once;
 use std::collections::BTreeMap;
 
 /// Unknowns that one step finds, at most.
@@ -170,15 +171,9 @@ impl Order {
         if least > MOST_DRIVES {
             return Vec::new();
         }
-        let mut outside: Vec<usize> = square
-            .rows
-            .iter()
-            .flat_map(|row| row.entries.clone())
-            .collect();
-        outside.retain(|&e| square.place[e] == KNOWN);
-        outside.push(zero);
-        outside.sort_unstable();
-        outside.dedup();
+        let entries = square.rows.iter().flat_map(|row| row.entries.clone());
+        let outside = entries.filter(|&e| square.place[e] == KNOWN);
+        let outside = each_once(outside.chain([zero]));
         let best = ways.into_iter().filter(|way| way.drives == least);
         let orders = best.take(most).map(|way| {
             let mut known = 0;
@@ -448,7 +443,7 @@ mod tests {
     use crate::complete::coordinates::search::Block;
     use crate::complete::coordinates::system::System;
     use crate::problem::Problem;
-    use crate::system::Homotopy;
+    use crate::system::{Homotopy, typical_length};
 
     /// A multiple that is rounded makes nothing linear.
     #[test]
@@ -468,7 +463,7 @@ mod tests {
 
     fn largest(problem: &str) -> Vec<Order> {
         let problem = Problem::read(problem).unwrap();
-        let homotopy = Homotopy::for_sets(&problem).unwrap();
+        let homotopy = Homotopy::for_sets_in(&problem, typical_length(&problem)).unwrap();
         let system = System::new(&homotopy);
         let rows = system.rows[..system.unknowns].iter();
         let rows: Vec<Vec<usize>> = rows.map(|row| row.entries.clone()).collect();

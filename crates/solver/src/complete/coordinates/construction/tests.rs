@@ -7,7 +7,7 @@ use crate::complete::coordinates::system::{Row, System};
 use crate::interval::{Interval, ZERO, hull, point};
 use crate::places::Each as _;
 use crate::problem::Problem;
-use crate::system::Homotopy;
+use crate::system::{Homotopy, typical_length};
 use proptest::prelude::*;
 use std::cell::Cell;
 use std::sync::OnceLock;
@@ -105,7 +105,7 @@ fn read() -> Vec<(System, Vec<f64>)> {
     let read = |name: &str| {
         let problem =
             Problem::read(format!("../../problems/{name}.toml")).expect("a shipped problem");
-        let homotopy = Homotopy::for_sets(&problem).expect("a gauge");
+        let homotopy = Homotopy::for_sets_in(&problem, typical_length(&problem)).expect("a gauge");
         let sketch = homotopy.sketch_of_unknowns().map(|x| x.mid()).collect();
         (System::new(&homotopy), sketch)
     };

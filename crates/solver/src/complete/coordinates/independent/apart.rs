@@ -3,6 +3,7 @@
 use super::super::{Cut, Figures, State};
 use super::forms;
 use crate::places::Each as _;
+use crate::sets::Joined;
 
 /// How the equations fall apart, whatever their zeros are.
 pub struct Apart {
@@ -68,7 +69,7 @@ impl Apart {
         if !blocks().all(is_own) {
             return None;
         }
-        let mut groups: Vec<usize> = (0..m).collect();
+        let mut groups = Joined::new(m);
         // The tree edges between two nodes, each by its lower end.
         let way = |[mut a, mut b]: [usize; 2]| {
             let mut way = Vec::new();
@@ -95,7 +96,7 @@ impl Apart {
         }
         let mut parts: Vec<usize> = Vec::new();
         let part = blocks().map(|((block, is_base), _)| {
-            let first = root(&groups, block.unknowns[0]);
+            let first = groups.of(block.unknowns[0]);
             (!is_base).then(|| {
                 let known = parts.iter().position(|&part| part == first);
                 known.unwrap_or_else(|| {
@@ -107,7 +108,7 @@ impl Apart {
         let part: Vec<Option<usize>> = part.collect();
         let all = conditions.into_iter().zip(of_conditions);
         let conditions = all.filter_map(|(condition, way)| {
-            let group = root(&groups, *way.first()?);
+            let group = groups.of(*way.first()?);
             let part = parts.iter().position(|&part| part == group);
             Some((condition, part?))
         });
@@ -145,18 +146,9 @@ impl Apart {
     }
 }
 
-/// What stands for the set of an element.
-fn root(sets: &[usize], mut of: usize) -> usize {
-    while sets[of] != of {
-        of = sets[of];
-    }
-    of
-}
-
 /// Makes one set of those of some elements.
-fn join(sets: &mut [usize], all: &[usize]) {
+fn join(sets: &mut Joined, all: &[usize]) {
     for pair in all.windows(2) {
-        let [a, b] = [root(sets, pair[0]), root(sets, pair[1])];
-        sets[a] = b;
+        sets.join([pair[0], pair[1]]);
     }
 }

@@ -1,6 +1,6 @@
 //! What comes of the zeros of all parts.
 
-use super::super::{Figures, MOST_FIGURES, entry};
+use super::super::{Figures, MOST_FIGURES};
 use super::{Case, One, Parts, forms};
 use crate::certificate::cover::coordinates::{Change, signs_changed};
 use crate::complete::parts::LISTED;
@@ -12,7 +12,7 @@ impl Figures<'_> {
     /// An entry of a representative.
     fn entry_of(&self, of: &Parts, figure: usize, i: usize) -> Interval {
         match i < self.system.unknowns {
-            true => entry(&of.representatives[figure], i),
+            true => of.representatives[figure].figure.enclosure(i),
             false => ZERO,
         }
     }
@@ -90,7 +90,7 @@ impl Figures<'_> {
             // Nor does a box hold one of another case: the base is elsewhere.
             let base = of.base.iter().map(|&i| {
                 let first = self.entry_of(of, case.first, i);
-                let boxes = listed.iter().map(|figure| entry(figure, i));
+                let boxes = listed.iter().map(|figure| figure.figure.enclosure(i));
                 boxes.fold(first, |hull, x| hull.convex_hull(x))
             });
             let base: Vec<Interval> = base.collect();
@@ -110,7 +110,7 @@ impl Figures<'_> {
     /// Combinations of a case, each in a box.
     fn listed(&self, of: &Parts, case: &Case, chosen: &[Vec<usize>]) -> Vec<FigureBox> {
         let m = self.system.unknowns;
-        let at = |figure: usize, i: usize| entry(&of.representatives[figure], i);
+        let at = |figure: usize, i: usize| of.representatives[figure].figure.enclosure(i);
         let moved = |figure: usize, i: usize| at(figure, i) - at(case.first, i);
         let listed = chosen.iter().map(|zeros| {
             let other = |(part, &zero): (&One, &usize)| Some(part.figures[zero.checked_sub(1)?]);
@@ -142,7 +142,13 @@ impl Figures<'_> {
         let edges = part.equations.iter();
         let edges: Vec<[usize; 2]> = edges.flat_map(|&e| forms(self.homotopy, e)).collect();
         let values = |figure: &FigureBox| -> Vec<Interval> {
-            let at = |i: usize| if i < m { entry(figure, i) } else { ZERO };
+            let at = |i: usize| {
+                if i < m {
+                    figure.figure.enclosure(i)
+                } else {
+                    ZERO
+                }
+            };
             edges.iter().map(|&[a, b]| at(a) - at(b)).collect()
         };
         let own = [case.first].into_iter().chain(part.figures.iter().copied());

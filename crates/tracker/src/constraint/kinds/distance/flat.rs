@@ -5,7 +5,7 @@
 //! line, a point of a plane, or of a line or plane of its own the nearest point to the origin.
 
 use super::super::prelude::*;
-use super::place::{from_line, from_plane};
+use super::place::{from_line, from_plane, on_its_side};
 use crate::constraint::directions::Directions;
 
 /// Two lines or planes are so far apart.
@@ -97,18 +97,6 @@ fn skew(name: &str, low: &mut Lowering, a: LineName, b: LineName, then: Real) ->
     let apart = low.between(&a.base, &b.base);
     let products = low.dot(1, &normal.forms, &apart.forms);
     let now = dot(&normal.at, &apart.at);
-    let then = with_sign(&now, then)
-        .ok_or("the lines meet in the sketch: move one of them to the side where it is wanted")?;
-    low.measure(
-        name,
-        Measured {
-            products,
-            now,
-            then,
-            power: 1,
-            odd: true,
-            arrows: vec![&normal],
-        },
-    );
-    Ok(())
+    let meet = "the lines meet in the sketch: move one of them to the side where it is wanted";
+    on_its_side(name, low, (products, now), then, (&normal, true), meet)
 }

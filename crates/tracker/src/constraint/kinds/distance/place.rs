@@ -37,9 +37,30 @@ pub fn from_plane(
 ) -> Result<(), Fault> {
     let plane = &low.headed_plane(plane.clone());
     let now = plane.height_in_sketch(low, place);
-    let then = with_sign(&now, then)
-        .ok_or("the point is in the plane in the sketch: move it to the side where it is wanted")?;
     let products = plane.height(low, 1, place);
+    let in_it = "the point is in the plane in the sketch: move it to the side where it is wanted";
+    let normal = &plane.normal;
+    on_its_side(
+        name,
+        low,
+        (products, now),
+        then,
+        (normal, normal.axial),
+        in_it,
+    )
+}
+
+/// Products that are a distance times the length of an arrow, and what they are in the sketch: they keep their sign. Of the arrow also
+/// whether they change it under reflections; `on_it`: what is said where they have none.
+pub fn on_its_side(
+    name: &str,
+    low: &mut Lowering,
+    (products, now): (Vec<Product>, Rational),
+    then: Real,
+    (arrow, odd): (&Arrow, bool),
+    on_it: &str,
+) -> Result<(), Fault> {
+    let then = with_sign(&now, then).ok_or(on_it)?;
     low.measure(
         name,
         Measured {
@@ -47,8 +68,8 @@ pub fn from_plane(
             now,
             then,
             power: 1,
-            odd: plane.normal.axial,
-            arrows: vec![&plane.normal],
+            odd,
+            arrows: vec![arrow],
         },
     );
     Ok(())
@@ -68,19 +89,7 @@ pub fn from_line(
         let across = low.between(&line.base, place);
         let products = low.cross_in_plane(1, &line.along.forms, &across.forms);
         let now = cross_in_plane(&line.along.at, &across.at);
-        let then = with_sign(&now, then).ok_or(on_it)?;
-        low.measure(
-            name,
-            Measured {
-                products,
-                now,
-                then,
-                power: 1,
-                odd: true,
-                arrows: vec![&line.along],
-            },
-        );
-        return Ok(());
+        return on_its_side(name, low, (products, now), then, (&line.along, true), on_it);
     }
     let (products, square) = off_line(name, low, place, line).ok_or(on_it)?;
     let d = low.lead(Real::from(square).sqrt(), then);

@@ -3,7 +3,8 @@
 use super::Ledger;
 use crate::interval::rounding::round_up;
 use crate::system::Homotopy;
-use crate::track::certified::solution::{Same, SolutionBox};
+use crate::track::certified::figures::FigureBox;
+use crate::track::certified::solution::Same;
 use crate::track::{Solution, Stop, StopKind, relative_width};
 
 impl Ledger {
@@ -60,7 +61,7 @@ impl Ledger {
                     width,
                     place: Some(place),
                     mirror_of,
-                    is_degenerate: found.is_flat,
+                    is_degenerate: found.alone_within == 0.0,
                 }
             })
             .collect();
@@ -92,12 +93,12 @@ pub enum Congruence {
 /// constraints fix the figure in its frame no isometry is left. Each of them goes with the changes of
 /// sign that leave a figure as it is, of the directions of lines of their own. Figures that differ in such directions
 /// alone are one to people, whether or not the change of sign is known as one: then nothing is said.
-pub fn is_congruent(homotopy: &Homotopy, one: &SolutionBox, other: &SolutionBox) -> Congruence {
+pub fn is_congruent(homotopy: &Homotopy, one: &FigureBox, other: &FigureBox) -> Congruence {
     let gauge = &homotopy.gauge;
     let mut turned = [false; 3];
     for (axis, &p) in gauge.reference.iter().skip(1).enumerate() {
         let i = gauge.variable[p * homotopy.dimension + axis];
-        let side = |s: &SolutionBox| {
+        let side = |FigureBox { figure: s, .. }: &FigureBox| {
             let spread = round_up(s.radius[i] + s.low[i].abs(), 1);
             (s.centre[i].abs() > spread).then_some(s.centre[i] > 0.0)
         };

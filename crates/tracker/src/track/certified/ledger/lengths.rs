@@ -10,7 +10,7 @@ impl Ledger {
     /// What remains to be proved of a closed loop.
     pub fn check_closed(&self, homotopy: &Homotopy) -> Result<(), Stop> {
         // Not needed for the proof: a loop crosses t = 1 as often upwards as downwards.
-        let rising = self.found.iter().filter(|s| s.rising).count();
+        let rising = self.places.iter().filter(|place| place.rising).count();
         if 2 * rising != self.found.len() {
             let words = format!(
                 "of {} crossings of t = 1 along a closed path, {rising} go upwards: this is a bug in krawl, \

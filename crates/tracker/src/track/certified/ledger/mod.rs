@@ -5,9 +5,11 @@ mod defined;
 mod lengths;
 mod two_ways;
 
+use super::figures::FigureBox;
 use super::link::{Ball, Frame, Tube};
 use super::reasons::Doubt;
-use super::solution::{Same, SolutionBox, SolutionProver};
+use super::solution::{Same, SolutionProver};
+use crate::interval::point;
 use crate::linalg::Vector;
 use crate::system::Homotopy;
 use crate::track::Place;
@@ -27,7 +29,7 @@ pub struct Ledger {
     /// The vectors that must not vanish: see [`Homotopy::nonzero_vectors`].
     nonzero: Vec<Vec<[usize; 2]>>,
     prover: SolutionProver,
-    found: Vec<SolutionBox>,
+    found: Vec<FigureBox>,
     /// Where on the path each of them is.
     places: Vec<Place>,
     turns: Turns,
@@ -92,9 +94,8 @@ impl Ledger {
         inverter: &mut InverseMaker,
         near: &[f64],
         extended: bool,
-    ) -> Result<&SolutionBox, Doubt> {
-        self.prover
-            .prove(equations, inverter, near, (true, extended))
+    ) -> Result<&FigureBox, Doubt> {
+        self.prover.prove(equations, inverter, near, extended)
     }
 
     /// Where the account stands.
@@ -131,7 +132,7 @@ impl Ledger {
     pub fn pass_flat(
         &mut self,
         piece: &Self,
-        flat: Vec<SolutionBox>,
+        flat: Vec<FigureBox>,
         rising: bool,
     ) -> Result<(), String> {
         let known = self.found.len();
@@ -178,7 +179,7 @@ impl Ledger {
     }
 
     /// The solutions so far, in the order of the path.
-    pub fn found(&self) -> &[SolutionBox] {
+    pub fn found(&self) -> &[FigureBox] {
         &self.found
     }
 
@@ -271,11 +272,9 @@ impl Ledger {
     ) -> Result<(), Doubt> {
         let (a, b) = crossing.between;
         tube.local.at(near, &mut self.scratch);
-        let how = (crossing.rising, extended);
-        let found = self.prover.prove(equations, inverter, &self.scratch, how)?;
-        self.ball.centre.copy_from_slice(&found.centre);
-        self.ball.low.copy_from_slice(&found.low);
-        self.ball.radius.copy_from_slice(&found.radius);
+        let near = &self.scratch;
+        let found = self.prover.prove(equations, inverter, near, extended)?;
+        self.ball.hold(&found.figure, point(1.0));
         let outside = || Doubt::Outside {
             radius: found.greatest_radius(),
             stretch: b - a,

@@ -2,7 +2,8 @@
 
 use super::Ledger;
 use crate::track::Place;
-use crate::track::certified::solution::{Same, SolutionBox};
+use crate::track::certified::figures::FigureBox;
+use crate::track::certified::solution::Same;
 
 impl Ledger {
     /// Takes the account of the way from the sketch in the other direction to that of this way: solutions are
@@ -13,9 +14,6 @@ impl Ledger {
         let places = std::mem::take(&mut self.places);
         self.found = back.found;
         self.found.reverse();
-        for found in &mut self.found {
-            found.rising = !found.rising;
-        }
         // Behind the sketch lengths of the path count downwards.
         self.places = back.places;
         self.places.reverse();
@@ -23,7 +21,7 @@ impl Ledger {
             (place.arc, place.rising) = (-place.arc, !place.rising);
         }
         for (found, place) in ahead.into_iter().zip(places) {
-            let same = |other: &SolutionBox| found.is_same(other, |_| false);
+            let same = |other: &FigureBox| found.is_same(other, |_| false);
             let answers: Vec<Same> = self.found.iter().map(same).collect();
             if answers.contains(&Same::Unknown) {
                 return Err(
@@ -50,7 +48,7 @@ impl Ledger {
         self.length += back.length;
         let ahead = self.found.len();
         let last = back.found.len();
-        for (k, (mut found, place)) in back.found.into_iter().zip(back.places).enumerate().rev() {
+        for (k, (found, place)) in back.found.into_iter().zip(back.places).enumerate().rev() {
             let others = self.found[..ahead].iter();
             let mut answers = others.map(|other| found.is_same(other, |_| false));
             match answers.position(|same| same != Same::No) {
@@ -64,7 +62,6 @@ impl Ledger {
                 }
                 Some(_) => return Err("a solution was found on both ways".to_owned()),
             }
-            found.rising = !found.rising;
             self.found.push(found);
             // Those of the whole path but for those between it and the sketch, on the way back.
             let folds = folds.saturating_sub(place.folds.unwrap_or(0));

@@ -6,10 +6,9 @@ use crate::track::arc::{ArcEnd, ArcRun, Figure};
 use crate::track::certified::beside::Besides;
 use crate::track::certified::fold::{self, FoldProver};
 use crate::track::certified::ledger::Ledger;
-use crate::track::certified::link::{Frame, Tube};
+use crate::track::certified::link::{Ball, Frame, Tube};
 use crate::track::certified::orientation::Orientations;
 use crate::track::certified::reasons::{Doubt, Rejection, undecided};
-use crate::track::certified::solution::SolutionBox;
 use crate::track::events::Rise;
 use crate::track::full::{Equations, InverseMaker};
 use crate::track::{Control, Options, Stop, StopKind};
@@ -105,7 +104,7 @@ impl Arc {
             ledger.return_to(before);
             return Err(Rejection::Undecided(Doubt::Time(time.undecided(from, at))));
         }
-        self.end = Some(ArcEnd::Reached(figure_of(found)));
+        self.end = Some(ArcEnd::Reached(found.figure.clone()));
         self.look_along(tube, (from, at));
         Ok(true)
     }
@@ -153,7 +152,7 @@ impl Arc {
             .enter_crossing(equations, inverter, tube, (from, h), extended)
             .map_err(Rejection::Undecided)?;
         let found = ledger.found().last().expect("it was just entered");
-        self.end = Some(ArcEnd::Reached(figure_of(found)));
+        self.end = Some(ArcEnd::Reached(found.figure.clone()));
         Ok(true)
     }
 
@@ -184,7 +183,8 @@ impl Arc {
         let normal = &tube.local.normal;
         let found = self.prover.prove(equations, homotopy, (&x, &v), normal);
         let found = found.ok_or_else(doubt)?;
-        let ball = fold::ball_of(&found, equations);
+        let mut ball = Ball::new(equations);
+        ball.hold(&found.figure, found.t);
         let (lo, hi) = tube.locate(&ball).ok_or_else(doubt)?;
         // Where t = 1 cannot be told from the fold, that is where the arc ends.
         // Between `until` and the fold dt/ds is not 0 if the fold is alone there.
@@ -209,15 +209,6 @@ impl Arc {
         if let Some(beside) = &mut self.beside {
             beside.follow(tube, between);
         }
-    }
-}
-
-fn figure_of(found: &SolutionBox) -> Figure {
-    let m = found.centre.len() - 2;
-    Figure {
-        centre: found.centre[..m].to_vec(),
-        low: found.low[..m].to_vec(),
-        radius: found.radius[..m].to_vec(),
     }
 }
 
@@ -278,7 +269,7 @@ impl<const N: usize, T: Test<N>> Arcs<N, T> {
                 .ledger
                 .prove_at_end(equations, inverter, &guess, extended);
             match proved {
-                Ok(found) => return Ok((figure_of(found), found.alone_within)),
+                Ok(found) => return Ok((found.figure.clone(), found.alone_within)),
                 Err(doubt) if extended => return Err(undecided(doubt, false, &tracker.homotopy)),
                 Err(_) => {}
             }

@@ -9,10 +9,10 @@
 //! throughout. So it is the same path, followed in the same direction, and it meets t = 1 in that piece once.
 
 use super::{Test, Tracker};
-use crate::interval::{Interval, hull, point};
+use crate::interval::{Interval, point};
 use crate::system::{Heights, Homotopy};
+use crate::track::certified::figures::FigureBox;
 use crate::track::certified::link::{Ball, Frame, Tube};
-use crate::track::certified::solution::SolutionBox;
 use crate::track::full::{Local, first_normal};
 use crate::track::{Control, Options, Trace, Witness};
 use std::borrow::Cow;
@@ -108,11 +108,7 @@ impl Crossing {
 
 /// The points of a ball, entry by entry.
 fn intervals(ball: &Ball, n: usize) -> Vec<Interval> {
-    let entry = |i: usize| {
-        let radius = ball.radius[i];
-        point(ball.centre[i]) + point(ball.low[i]) + hull(-radius, radius)
-    };
-    (0..n).map(entry).collect()
+    (0..n).map(|i| ball.enclosure(i)).collect()
 }
 
 /// A ball that holds a box.
@@ -307,8 +303,8 @@ impl<const N: usize, T: Test<N>> Tracker<'_, N, T> {
             .map_err(|_| "the equations are still dependent behind it")?;
 
         let mark = self.ledger.mark();
-        let given = |found: &SolutionBox| self.flat_solution(found, heights);
-        let flat: Vec<SolutionBox> = piece.ledger.found().iter().map(given).collect();
+        let given = |found: &FigureBox| self.flat_solution(found, heights);
+        let flat: Vec<FigureBox> = piece.ledger.found().iter().map(given).collect();
         self.ledger.pass_flat(&piece.ledger, flat, rising)?;
         let known = self.ledger.solutions_so_far();
         // The tube around it comes in the next one's place, as one around the sketch.
@@ -330,24 +326,13 @@ impl<const N: usize, T: Test<N>> Tracker<'_, N, T> {
     }
 
     /// A box around a flat figure in these unknowns.
-    fn flat_solution(&self, found: &SolutionBox, heights: &Heights) -> SolutionBox {
-        let m = heights.homotopy.equations;
-        let entry = |i: usize| {
-            let radius = found.radius[i];
-            point(found.centre[i]) + point(found.low[i]) + hull(-radius, radius)
-        };
-        let there: Vec<Interval> = (0..m).map(entry).chain([point(1.0)]).collect();
-        let mut ball = Ball::new(&self.equations);
-        fill(&mut ball, &heights.multiply(&there));
-        SolutionBox {
-            centre: ball.centre,
-            low: ball.low,
-            radius: ball.radius,
-            // There are other flat figures however near.
-            alone_within: 0.0,
-            rising: found.rising,
-            is_flat: true,
-        }
+    fn flat_solution(&self, found: &FigureBox, heights: &Heights) -> FigureBox {
+        let unknowns = 0..heights.homotopy.equations;
+        let there = unknowns.map(|i| found.figure.enclosure(i));
+        let there: Vec<Interval> = there.chain([point(1.0)]).collect();
+        let here = heights.multiply(&there);
+        // There are other flat figures however near.
+        FigureBox::around(here[..self.equations.m].iter().copied())
     }
 }
 
@@ -376,7 +361,7 @@ mod tests {
         change(&mut crossing.heights.homotopy);
         let result = tracker.run(&options, &mut Control::default());
         let found = tracker.ledger.found().iter();
-        let flat = found.filter(|found| found.is_flat).count();
+        let flat = found.filter(|found| found.alone_within == 0.0).count();
         let end = match &result {
             Ok(()) => String::new(),
             Err(reason) => {

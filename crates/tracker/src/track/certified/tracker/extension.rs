@@ -1,6 +1,7 @@
 //! When extended precision comes on along a path, when it goes off, and what is said of it.
 
 use super::{EXIT, Test, Tracker};
+use crate::order::each_once;
 use crate::track::certified::reasons::Rejection;
 use crate::track::full::{Local, Preconditioner, RefineError};
 
@@ -101,9 +102,7 @@ impl Extension {
                 "extended precision (double-double), {tubes} tube{plural}{place}: 53 bits could not {why}"
             )
         };
-        let mut reasons: Vec<&'static str> = self.stretches.iter().map(|s| s.why).collect();
-        reasons.sort_unstable();
-        reasons.dedup();
+        let reasons = each_once(self.stretches.iter().map(|s| s.why));
         reasons.into_iter().map(of).collect()
     }
 }

@@ -6,7 +6,6 @@ use super::{EndKind, PathEnd, Test, Tracker};
 use crate::constraint::Role;
 use crate::interval::rounding::round_up;
 use crate::interval::{hull, point};
-use crate::places::Each as _;
 use crate::track::ends::{
     Away, ENDLESS, FAR, OUTSIDE, SETTLED, SMALL, farthest, places, vanishing, vanishing_vector,
 };
@@ -27,10 +26,7 @@ impl<const N: usize, T: Test<N>> Tracker<'_, N, T> {
         if size.is_nan() || size <= FAR * self.size_of_sketch {
             return None;
         }
-        let exit = |i: usize| {
-            let [x, low] = [&tube.exit.centre, &tube.exit.low].each(|v| point(v[i]));
-            x + low + hull(-tube.exit.radius[i], tube.exit.radius[i])
-        };
+        let exit = |i: usize| tube.exit.enclosure(i);
         let (from, to) = tube.exit_between;
         let slope = |i: usize| {
             let (_, (low, high)) = tube.entry_along(i).bounds(from, to);

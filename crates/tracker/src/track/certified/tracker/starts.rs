@@ -1,6 +1,7 @@
 //! Where the path meets t = 0: at the sketch, and perhaps again.
 
 use super::{Test, Tracker};
+use crate::interval::ZERO;
 use crate::track::Control;
 use crate::track::certified::figures::FigureBox;
 use crate::track::certified::solution::{Same, SolutionProver};
@@ -52,23 +53,17 @@ impl<const N: usize, T: Test<N>> Tracker<'_, N, T> {
         }
         for s in crossings {
             tube.local.at(s, &mut x);
-            let Ok(found) = prover.prove(equations, &mut self.inverter, &x, (true, false)) else {
+            let Ok(found) = prover.prove(equations, &mut self.inverter, &x, false) else {
                 continue;
             };
             let mut ball = super::Ball::new(equations);
-            ball.centre.copy_from_slice(&found.centre);
-            ball.low.copy_from_slice(&found.low);
-            ball.radius.copy_from_slice(&found.radius);
+            ball.hold(&found.figure, ZERO);
             if tube.locate(&ball).is_none() {
                 continue;
             }
-            let figure = FigureBox::of(found);
-            let known = seen
-                .start
-                .iter()
-                .any(|other| figure.same(other) != Same::No);
-            if !known {
-                seen.start.push(figure);
+            let is_it = |other: &FigureBox| found.is_same(other, |_| false) != Same::No;
+            if !seen.start.iter().any(is_it) {
+                seen.start.push(found.clone());
             }
         }
     }

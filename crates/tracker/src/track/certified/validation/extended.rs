@@ -395,13 +395,17 @@ fn boxes_of_solutions_hold_them() {
                 guess[v] = middle / homotopy.unit + 1e-9;
             }
             let found = prover
-                .prove(&equations, &mut inverter, &guess, (true, true))
+                .prove(&equations, &mut inverter, &guess, true)
                 .unwrap();
             for (v, x) in x.iter().enumerate() {
-                let centre = sum_of(found.centre[v], found.low[v]);
+                let centre = sum_of(found.figure.centre[v], found.figure.low[v]);
                 let off = (x / exact(homotopy.unit) - centre).abs();
-                assert!(off <= exact(found.radius[v]));
-                assert!(found.radius[v] < 1e-26, "{:e}", found.radius[v]);
+                assert!(off <= exact(found.figure.radius[v]));
+                assert!(
+                    found.figure.radius[v] < 1e-26,
+                    "{:e}",
+                    found.figure.radius[v]
+                );
             }
             for (point, place) in found.points(&homotopy).iter().zip(0..) {
                 for axis in 0..3 {

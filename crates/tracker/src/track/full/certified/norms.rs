@@ -106,12 +106,8 @@ impl Norms {
 
     pub(in crate::track) fn proof(&self, h: f64, weight_of_t: f64) -> Result<Proof, Shortfall> {
         let (contraction, width, defect) = self.at(h);
-        let Contraction {
-            r,
-            q,
-            nearer_q,
-            distance,
-        } = Contraction::new((contraction, width, defect), 0.5 / weight_of_t, self.radius)?;
+        let found = Contraction::new((contraction, width, defect), 0.5 / weight_of_t, self.radius)?;
+        let distance = found.distance;
         // w' solves [J; c] w' = −[J(ẑ + w) ẑ'; 0], and J(ẑ + w) ẑ' = F(ẑ)' + J(ẑ)' w + ½ E⁽³⁾ w_t² ẑ_t'.
         // A power sᵏ gains a factor k/h, with k ≤ (MAX_DEGREE − 1) ORDER in J_k. For the low orders of F
         // with all rounding see `LowOrders::slope`.
@@ -129,21 +125,7 @@ impl Norms {
         let slope = moving
             * (defect_slope
                 + distance * (jacobian_slope + self.width * distance * self.slope_of_t));
-        let slope_distance = round_up(slope / (1.0 - nearer_q), 400);
-        // Otherwise no tube after this one could be proved to go the same way.
-        let direction = slope_distance * self.normal;
-        let is_known = direction <= 0.5;
-        if !is_known {
-            return Err(Shortfall::Direction(direction));
-        }
-        Ok(Proof {
-            h,
-            r,
-            distance,
-            slope_distance,
-            q,
-            slope: self.slope,
-            moving: self.a,
-        })
+        let slope_distance = round_up(slope / (1.0 - found.nearer_q), 400);
+        found.proof(h, slope_distance, (self.slope, self.a), self.normal)
     }
 }

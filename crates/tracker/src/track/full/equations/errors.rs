@@ -6,6 +6,29 @@ use crate::linalg::{LANE, Vector};
 use crate::places::Each as _;
 
 impl Equations {
+    /// Of an equation at a point with these differences: `from` and the sizes of all parts of its derivative by X together,
+    /// and how much these change at most per |w|, the largest change of an unknown.
+    pub fn sizes_at(&self, e: usize, d: &Differences, from: f64) -> (f64, f64) {
+        let is_free = |end: usize| (end < self.m) as usize as f64;
+        let (mut size, mut change) = (from, 0.0);
+        for (ends, d) in self.ends.iter().zip(&d.axes) {
+            let free = ends[e].each(|end| is_free(end as usize));
+            let free = free[0] + free[1];
+            size += d[e].abs() * free;
+            // |w_i − w_j| times the row sum of the entry's two columns.
+            change += free * free;
+        }
+        for (half, forms) in self.tail.products(e) {
+            // The same for a product of two factors.
+            let free = forms.each(|form| self.tail.ends(form).each(is_free));
+            let [left, right] = free.each(|ends| ends[0] + ends[1]);
+            let [l, r] = forms.each(|form| d.forms[form].abs());
+            size += half.abs() * (l * right + r * left);
+            change += 2.0 * half.abs() * left * right;
+        }
+        (size, change)
+    }
+
     /// How far F may be from the value that [`Equations::residual`] computes: rounding and the
     /// radii of the coefficients.
     pub fn residual_error(&self, d: &Differences, t: f64, out: &mut Vector) {

@@ -61,32 +61,13 @@ impl Bounds {
         let contraction = round_up(self.constant + self.cubic * (x * x * x), 20);
         let power = x.powi(N as i32);
         let defect = round_up(self.low + self.high * power, 40);
-        let Contraction {
-            r,
-            q,
-            nearer_q,
-            distance,
-        } = Contraction::new((contraction, self.width, defect), 1.0, self.radius)?;
+        let found = Contraction::new((contraction, self.width, defect), 1.0, self.radius)?;
         // w' solves [J; c] w' = −[F(ẑ)' + (J(ẑ + w) − J(ẑ)) ẑ'; 0]. The powers sᵏ of F that
         // get smaller gain a factor k/h, of which `high` counts k/N already; the derivative of the rest
         // was bounded by itself, as most of that is rounding in F(z₀), which has none.
         let high = N as f64 / h * (self.high * power);
-        let slope = (self.low_slope + high + distance * self.turn) / (1.0 - nearer_q);
+        let slope = (self.low_slope + high + found.distance * self.turn) / (1.0 - found.nearer_q);
         let slope_distance = round_up(slope, 80);
-        // Otherwise no tube after this one could be proved to go the same way.
-        let direction = slope_distance * self.normal;
-        let is_known = direction <= 0.5;
-        if !is_known {
-            return Err(Shortfall::Direction(direction));
-        }
-        Ok(Proof {
-            h,
-            r,
-            distance,
-            slope_distance,
-            q,
-            slope: self.slope,
-            moving: 0.0,
-        })
+        found.proof(h, slope_distance, (self.slope, 0.0), self.normal)
     }
 }

@@ -2,6 +2,7 @@
 //! distances: what a construction plan is for distances alone.
 
 use super::layout::WIDEST;
+use crate::order::each_once;
 use crate::system::Homotopy;
 use crate::track::full::Equations;
 
@@ -105,13 +106,7 @@ fn rows(equations: &Equations, group_of: &[usize]) -> Vec<Vec<usize>> {
         let unknowns = head
             .map(|end| end as usize)
             .chain(tail.map(|entry| equations.tail.unknown(entry)));
-        let mut groups: Vec<usize> = unknowns
-            .filter(|&i| i < group_of.len())
-            .map(|i| group_of[i])
-            .collect();
-        groups.sort_unstable();
-        groups.dedup();
-        groups
+        each_once(unknowns.filter_map(|i| group_of.get(i).copied()))
     };
     (0..equations.m).map(of_row).collect()
 }

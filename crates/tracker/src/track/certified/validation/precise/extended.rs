@@ -119,16 +119,16 @@ fn check_boxes(problem: &Problem, ratios: &mut Ratios) {
         }
         guess[m] = 1.0;
         let found = prover
-            .prove(&equations, &mut inverter, &guess, (true, true))
+            .prove(&equations, &mut inverter, &guess, true)
             .expect("a box");
-        let middle = |i: usize| Big::of(found.centre[i]) + Big::of(found.low[i]);
-        let mut through: Vec<Big> = (0..n).map(middle).collect();
-        through[m] = Big::of(1.0);
+        let middle = |i: usize| Big::of(found.figure.centre[i]) + Big::of(found.figure.low[i]);
+        let mut through: Vec<Big> = (0..m).map(middle).collect();
+        through.push(Big::of(1.0));
         let (z, _) = figure
             .point_near(&through, &normal)
             .unwrap_or_else(|| panic!("no solution near a box of {}", problem.name));
         for (i, z) in z[..m].iter().enumerate() {
-            ratios.check("solution", &(z - &through[i]).abs(), found.radius[i]);
+            ratios.check("solution", &(z - &through[i]).abs(), found.figure.radius[i]);
         }
     }
 }
