@@ -158,7 +158,7 @@ fn searched(
     let mut x = vec![entire(); m + 1];
     x[m] = ZERO;
     let blocks = blocks(&system);
-    let halves = symmetry::halves(problem, (homotopy, &signs), &system, &blocks);
+    let halves = symmetry::halves(problem, (homotopy, &signs), &blocks);
     let pivots: Vec<usize> = halves.iter().map(|half| half.unknown).collect();
     for i in pivots.iter().copied().chain(homotopy.positive_unknowns()) {
         x[i] = upper_half();

@@ -20,7 +20,7 @@ pub use format::{
 };
 pub use independent::Slice;
 pub use space::{Empty, Part};
-pub use symmetry::signs_changed;
+pub use symmetry::{changes, signs_changed};
 pub use turns::{Look, Turn};
 
 use super::{CoverError, CoverStage, CoverVerdict, ENDED};
@@ -74,7 +74,7 @@ impl Space {
             format!("in which direction {name} is fixed is not certain")
         })?;
         let allowed = constraint::symmetry(problem);
-        let not_negative = symmetry::not_negative(&eq, (allowed, &signs), &cover.halves)?;
+        let not_negative = symmetry::not_negative(&eq.homotopy, (allowed, &signs), &cover.halves)?;
         for block in &cover.blocks {
             let fits = |numbers: &[usize]| {
                 let mut sorted = numbers.to_vec();
@@ -295,7 +295,7 @@ impl Space {
 
     /// The solution that a change of signs takes the zero in a part to, if it is one.
     pub fn image_in(&self, by: &Change, part: &Part) -> Option<Image> {
-        let changes = symmetry::changes(&self.eq, (self.allowed, &self.signs), by)?;
+        let changes = changes(&self.eq.homotopy, (self.allowed, &self.signs), by)?;
         let mut seen = Seen { figure: 0, changes };
         let figure = (0..self.figures.len()).find(|&figure| {
             seen.figure = figure;
@@ -310,7 +310,7 @@ impl Space {
         if image.figure >= self.figures.len() {
             return Err("an image is said to be of a solution that is not listed".to_owned());
         }
-        let changes = symmetry::changes(&self.eq, (self.allowed, &self.signs), &image.by);
+        let changes = changes(&self.eq.homotopy, (self.allowed, &self.signs), &image.by);
         let unlike = || {
             format!(
                 "what is called an image of solution {} is not so by a symmetry of the problem",
