@@ -7,16 +7,16 @@
 //! Where fewer come of it, those unknowns are bounded that a linear equation tells by itself; and a linear equation of which elimination
 //! leaves a number that is not 0 has no zero.
 
-use super::contract::{Empty, entire};
 use super::expanded::Expanded;
 use super::newton::Square;
+use crate::certificate::cover::coordinates::Empty;
 use crate::elimination::clear;
 use crate::interval::{Interval, ZERO, checked, point};
 
 /// Ranges of the unknowns of a block, in order, that hold all of its zeros; [`Empty`] where linear equations contradict each other.
 pub fn bounds(square: &Square, x: &[Interval]) -> Result<Vec<Interval>, Empty> {
     let n = square.own.len();
-    let unknown = || Ok(vec![entire(); n]);
+    let unknown = || Ok(vec![Interval::ENTIRE; n]);
     let rows = square.rows.iter();
     let rows = rows.filter_map(|row| Expanded::new(row, square, x));
     let rows: Vec<Expanded> = rows.collect();
@@ -65,14 +65,14 @@ pub fn bounds(square: &Square, x: &[Interval]) -> Result<Vec<Interval>, Empty> {
         (Some(_), Some(lines)) if is_line => {
             let ranges = rows.iter().filter_map(|row| root_range(row, &lines));
             let least = ranges.min_by(|a, b| a.mag().total_cmp(&b.mag()));
-            least.unwrap_or_else(entire)
+            least.unwrap_or(Interval::ENTIRE)
         }
-        _ => entire(),
+        _ => Interval::ENTIRE,
     };
     let range_of = |line: &Option<(Interval, Interval)>| match line {
         Some((alpha, beta)) if *beta == ZERO => *alpha,
         Some((alpha, beta)) => *alpha + *beta * range,
-        None => entire(),
+        None => Interval::ENTIRE,
     };
     Ok(lines.iter().map(range_of).collect())
 }
@@ -153,7 +153,7 @@ mod tests {
 
     #[test]
     fn a_circle_that_touches_three_others_is_not_far() {
-        let mut x = vec![entire(), entire(), entire(), ZERO];
+        let mut x = vec![Interval::ENTIRE, Interval::ENTIRE, Interval::ENTIRE, ZERO];
         let rows = [[0.0, 0.0, 1.0], [7.0, 0.0, 1.5], [2.0, 6.0, -2.0]];
         let rows = rows.map(|circle| cone(circle, 3, &mut x));
         let mut place = vec![KNOWN; x.len()];

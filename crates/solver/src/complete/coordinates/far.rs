@@ -5,8 +5,8 @@
 //! linear in the unbounded unknowns are solved by elimination in intervals: for every zero in the box the exact numbers are in them, so
 //! that every row that is left holds, too.
 
-use super::contract::Empty;
 use super::system::Row;
+use crate::certificate::cover::coordinates::Empty;
 use crate::elimination::clear;
 use crate::interval::{Interval, ZERO};
 
@@ -85,10 +85,9 @@ pub fn far(rows: &[&Row], is_free: &[bool], x: &mut [Interval]) -> Result<bool, 
 
 #[cfg(test)]
 mod tests {
-    use super::super::contract::{entire, upper_half};
     use super::super::system::{Form, Product};
     use super::*;
-    use crate::interval::{hull, point};
+    use crate::interval::{hull, point, upper_half};
 
     /// (x, y) + L u = (0, 0) and (x, y) + M v = (1, 0) in the entries x, y, L, M, u, v, 0, 1.
     fn corner(u: [f64; 2], v: [f64; 2], wide: f64) -> (Vec<Row>, Vec<Interval>) {
@@ -109,7 +108,12 @@ mod tests {
                 rows.push(Row::new(products, point(place[axis]), ZERO_ENTRY));
             }
         }
-        let mut x = vec![entire(), entire(), upper_half(), upper_half()];
+        let mut x = vec![
+            Interval::ENTIRE,
+            Interval::ENTIRE,
+            upper_half(),
+            upper_half(),
+        ];
         x.extend(
             [u, v]
                 .into_iter()

@@ -1,5 +1,6 @@
 //! The equations of a problem with its dimensions, as the search over coordinates sees them.
 
+use crate::certificate::cover::coordinates::Shared;
 use crate::equations;
 use crate::interval::{Interval, ZERO, point};
 use crate::places::Each as _;
@@ -98,59 +99,18 @@ pub fn product(p: &Product, at: &[Interval]) -> Interval {
         return p.left.value(|entry| at[entry]).sqr();
     }
     let product = p.value(|entry| at[entry]);
-    match Shared::of(p, at) {
+    match shared(p, at) {
         None => product,
         Some(shared) => product.intersection(shared.product(at)),
     }
 }
 
-/// An entry x in both factors, which are ±(x − a) and ±(x − b): (x − a)(x − b) = (x − (a + b)/2)² − ((a − b)/2)².
-///
-/// A right angle at a point that is sought has such products. However wide the range of x is, the square is not negative, which the product
-/// of two ranges does not know.
-pub struct Shared {
-    /// x.
-    pub entry: usize,
-    /// (a + b)/2.
-    pub middle: Interval,
-    /// ((a − b)/2)².
-    less: Interval,
-    /// Whether one factor is x − a and the other b − x.
-    is_opposite: bool,
-}
-
-impl Shared {
-    /// `None`: there is none, or it is known.
-    pub fn of(p: &Product, at: &[Interval]) -> Option<Self> {
-        let (Form::Difference(i, j), Form::Difference(k, l)) = (p.left, p.right) else {
-            return None;
-        };
-        let (entry, [a, b], is_opposite) = match () {
-            () if i == k => (i, [j, l], false),
-            () if j == l => (j, [i, k], false),
-            () if i == l => (i, [j, k], true),
-            () if j == k => (j, [i, l], true),
-            () => return None,
-        };
-        let half = point(0.5);
-        (at[entry].wid() > 0.0).then(|| Shared {
-            entry,
-            middle: half * (at[a] + at[b]),
-            less: (half * (at[a] - at[b])).sqr(),
-            is_opposite,
-        })
-    }
-
-    /// The product of the factors.
-    fn product(&self, at: &[Interval]) -> Interval {
-        let product = (at[self.entry] - self.middle).sqr() - self.less;
-        if self.is_opposite { -product } else { product }
-    }
-
-    /// (x − (a + b)/2)², if the product of the factors is in a range.
-    pub fn square(&self, product: Interval) -> Interval {
-        self.less + if self.is_opposite { -product } else { product }
-    }
+/// An entry that both factors have in common. `None`: there is none, or it is known.
+pub fn shared(p: &Product, at: &[Interval]) -> Option<Shared> {
+    let (Form::Difference(i, j), Form::Difference(k, l)) = (p.left, p.right) else {
+        return None;
+    };
+    Shared::of([i, j], [k, l]).filter(|shared| at[shared.x].wid() > 0.0)
 }
 
 /// The logarithm of the product of the widths of some entries' ranges.

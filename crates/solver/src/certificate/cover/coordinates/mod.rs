@@ -19,7 +19,8 @@ pub use format::{
     Block, Body, Case, Change, CoordinateCover, Half, Image, Independent, Mark, Turned,
 };
 pub use independent::Slice;
-pub use space::{Empty, Part};
+pub use shared::Shared;
+pub use space::{Empty, Part, ROUNDS};
 pub use symmetry::{changes, signs_changed};
 pub use turns::{Look, Turn};
 

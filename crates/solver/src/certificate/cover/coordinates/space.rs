@@ -10,14 +10,12 @@ use super::shared::Shared;
 use super::sums::{self, Sum};
 use crate::certificate::checker::equations::{Equations, Product, ZERO};
 use crate::certificate::checker::guess::invert;
-use crate::interval::{Interval, checked, point};
+use crate::interval::{Interval, checked, halves, is_narrower, point, upper_half};
 use crate::system::told::{self, Flat, Side, Told, View};
 use std::rc::Rc;
 
-/// A range counts as changed where it became narrower by this part of it. (No zero is lost whatever this number is.)
-const ENOUGH: f64 = 0.05;
-/// How often all equations are gone through at most.
-const ROUNDS: usize = 12;
+/// How often all equations are gone through at most. (No zero is lost whatever this number is.)
+pub const ROUNDS: usize = 12;
 
 /// How often sums of equations are gone through. (No zero is lost whatever this number is.)
 const SUMMED: usize = 2;
@@ -69,20 +67,10 @@ pub struct Rows {
     rows: Vec<Row>,
 }
 
-/// All numbers.
-fn entire() -> Interval {
-    checked(f64::NEG_INFINITY, f64::INFINITY).expect("an interval")
-}
-
-/// All numbers that are not negative.
-fn upper_half() -> Interval {
-    checked(0.0, f64::INFINITY).expect("an interval")
-}
-
 impl Part {
     /// All of the space where some unknowns are not negative, or with `true` not positive.
     pub fn whole(eq: &Equations, signs: impl Iterator<Item = (usize, bool)>) -> Part {
-        let mut x = vec![entire(); eq.m];
+        let mut x = vec![Interval::ENTIRE; eq.m];
         for (i, negative) in signs {
             let half = upper_half();
             x[i] = if negative { -half } else { half };
@@ -169,26 +157,13 @@ impl Part {
 
     /// The part with an unknown in the lower and in the upper half of its range, which share a border.
     pub fn halved(&self, unknown: usize) -> Option<[Part; 2]> {
-        let x = *self.ranges().get(unknown)?;
-        let middle = match (x.inf().is_finite(), x.sup().is_finite()) {
-            (true, true) => x.mid(),
-            (true, false) => (2.0 * x.inf()).max(1.0),
-            (false, true) => (2.0 * x.sup()).min(-1.0),
-            (false, false) => 0.0,
-        };
-        if !(x.inf() < middle && middle < x.sup()) {
-            return None;
-        }
         let with = |range| {
             let mut part = self.clone();
             part.x[unknown] = range;
             part.fresh[unknown] = true;
             part
         };
-        Some([
-            with(checked(x.inf(), middle)?),
-            with(checked(middle, x.sup())?),
-        ])
+        Some(halves(*self.ranges().get(unknown)?)?.map(with))
     }
 
     /// Narrows one range to what it has in common with another one.
@@ -198,15 +173,7 @@ impl Part {
         if new.is_empty() {
             return Err(Empty);
         }
-        let is_worth = match (old.wid().is_finite(), new.wid().is_finite()) {
-            (true, _) => new.wid() < (1.0 - ENOUGH) * old.wid(),
-            (false, true) => true,
-            // A bound that is new, or moved well.
-            (false, false) => [(old.inf(), new.inf()), (old.sup(), new.sup())]
-                .iter()
-                .any(|&(a, b)| a != b && !(a.is_finite() && (b - a).abs() < 0.5 * a.abs())),
-        };
-        self.fresh[i] |= is_worth;
+        self.fresh[i] |= is_narrower(new, old);
         self.x[i] = new;
         Ok(())
     }
@@ -515,7 +482,7 @@ pub fn roots(square: Interval, now: Interval) -> Result<Interval, Empty> {
         (true, true) => Err(Empty),
         (true, false) => Ok(sides[1]),
         (false, true) => Ok(sides[0]),
-        (false, false) => Ok(checked(-most, most).unwrap_or_else(entire)),
+        (false, false) => Ok(checked(-most, most).unwrap_or(Interval::ENTIRE)),
     }
 }
 
