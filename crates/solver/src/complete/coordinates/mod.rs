@@ -19,7 +19,6 @@ mod bound;
 mod construction;
 mod contract;
 mod cover;
-mod divided;
 mod expanded;
 mod far;
 mod independent;

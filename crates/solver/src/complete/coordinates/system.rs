@@ -4,7 +4,7 @@ use crate::certificate::cover::coordinates::Shared;
 use crate::equations;
 use crate::interval::{Interval, ZERO, point};
 use crate::places::Each as _;
-use crate::system::Homotopy;
+use crate::system::{Homotopy, Term};
 
 /// A difference of two entries, or the number 1.
 pub type Form = equations::Form<usize>;
@@ -128,17 +128,19 @@ impl System {
     /// The equations of a homotopy with t = 1.
     pub fn new(homotopy: &Homotopy) -> Self {
         let m = homotopy.equations;
-        let row = |e: usize| {
-            let terms = homotopy.terms(e).into_iter();
-            let products = terms.map(|term| {
+        let row = |terms: Vec<Term>, right: Interval| {
+            let products = terms.into_iter().map(|term| {
                 let [left, right] = term.forms().each(|form| form.map(|i| i.unwrap_or(m)));
                 Product::new(point(0.5 * f64::from(term.factor)), left, right)
             });
-            Row::new(products.collect(), homotopy.rights[e].at_target(), m)
+            Row::new(products.collect(), right, m)
         };
+        let equations = (0..m).map(|e| row(homotopy.terms(e), homotopy.rights[e].at_target()));
+        let follow = homotopy.rows_in_figures().into_iter();
+        let rows = equations.chain(follow.map(|terms| row(terms, ZERO)));
         let mut system = System {
             unknowns: m,
-            rows: (0..m).map(row).collect(),
+            rows: rows.collect(),
             positive: homotopy.positive_unknowns(),
             nonzero: homotopy.nonzero_vectors(),
         };
@@ -146,9 +148,6 @@ impl System {
         for ends in system.nonzero.iter_mut().flatten() {
             *ends = ends.each(|end| names[end.min(m)]);
         }
-        let mut follow = system.cross_products();
-        follow.extend(system.divided(homotopy));
-        system.rows.extend(follow);
         system
     }
 
@@ -179,44 +178,6 @@ impl System {
             }
         }
         (0..=zero).map(|entry| root(&names, entry)).collect()
-    }
-
-    /// (k, v, u), if a row says v − k u = 0.
-    pub(super) fn parallel(&self, row: &Row) -> Option<(usize, Form, Form)> {
-        let zero = self.unknowns;
-        let single = |form: Form| match form {
-            Form::Difference(k, z) if z == zero && k != zero => Some(k),
-            _ => None,
-        };
-        let [one, other] = row.products.as_slice() else {
-            return None;
-        };
-        if row.right != ZERO || one.right != Form::One || other.factor != -one.factor {
-            return None;
-        }
-        Some((single(other.left)?, one.left, other.right))
-    }
-
-    /// From v_i = k u_i and v_j = k u_j follows v_i u_j = v_j u_i, which says something where k is not known: vectors that
-    /// are parallel.
-    fn cross_products(&self) -> Vec<Row> {
-        let zero = self.unknowns;
-        let found: Vec<_> = self
-            .rows
-            .iter()
-            .filter_map(|row| self.parallel(row))
-            .collect();
-        let mut out = Vec::new();
-        for (i, &(k, v, u)) in found.iter().enumerate() {
-            for &(_, w, x) in found[..i].iter().filter(|other| other.0 == k) {
-                let products = [(1.0, v, x), (-1.0, w, u)];
-                let products =
-                    products.each(|(f, left, right)| Product::new(point(f), left, right));
-                let products = products.to_vec();
-                out.push(Row::new(products, ZERO, zero));
-            }
-        }
-        out
     }
 
     /// Adds bounds of the squared distance of two points, given by the entries of their coordinates.

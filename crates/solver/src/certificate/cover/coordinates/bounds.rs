@@ -4,9 +4,8 @@
 //! equations that come of it, x_k = α_k + β_k t, any equation is a t² + b t + c = 0; if a is not 0 then
 //! |t| ≤ (|b| + √(b² + 4 |a c|)) / (2 |a|).
 
-use super::space::difference;
-use crate::certificate::checker::equations::{Equations, Product, ZERO};
-use crate::interval::{Interval, checked, point};
+use super::space::{Product, difference};
+use crate::interval::{Interval, ZERO, checked, point};
 use crate::system::told::Flat;
 use std::collections::BTreeMap;
 
@@ -27,7 +26,6 @@ pub struct Expanded {
 impl Expanded {
     /// Σ products = right, all entries that are not unknowns of the block being numbers in their ranges.
     pub fn new(
-        eq: &Equations,
         (products, right): (&[Product], Interval),
         unknowns: &[usize],
         x: &[Interval],
@@ -38,8 +36,7 @@ impl Expanded {
             constant: -right,
         };
         // The unknowns in a form, with their signs, and the rest of it.
-        let split = |form: usize| {
-            let [i, j] = eq.forms[form];
+        let split = |[i, j]: [usize; 2]| {
             let own = |entry: usize| unknowns.iter().position(|&u| u == entry);
             let rest = match (i == j, own(i), own(j)) {
                 (true, ..) => return (Vec::new(), ZERO),

@@ -6,7 +6,6 @@
 //! the distance around a listed zero in which certificates' test for one figure proves that there is no other.
 
 mod bounds;
-mod divided;
 mod format;
 mod independent;
 mod shared;
@@ -113,9 +112,7 @@ impl Space {
         };
         let whole = space.whole();
         let sums = space.blocks.iter();
-        space.sums = sums
-            .map(|block| space.rows.sums(&space.eq, block, &whole))
-            .collect();
+        space.sums = sums.map(|block| space.rows.sums(block, &whole)).collect();
         for (index, near) in cover.figures.iter().enumerate() {
             let number = index + 1;
             let place = space.zero(near).filter(|place| space.is_figure(place));
@@ -205,7 +202,7 @@ impl Space {
     pub fn narrow(&self, part: &mut Part) -> Result<(), Empty> {
         for _ in 0..MOVED {
             self.apart.narrow(part, &self.figures)?;
-            self.rows.narrow(&self.eq, part)?;
+            self.rows.narrow(part)?;
         }
         Ok(())
     }
@@ -239,7 +236,7 @@ impl Space {
     pub fn bound(&self, block: usize, part: &mut Part) -> Result<(), Empty> {
         self.add_up(block, part)?;
         if let (Some(block), Some(sums)) = (self.blocks.get(block), self.sums.get(block)) {
-            self.rows.bound(&self.eq, (block, sums), part)?;
+            self.rows.bound((block, sums), part)?;
         }
         self.narrow(part)
     }
@@ -247,7 +244,7 @@ impl Space {
     /// Narrows a part by sums of two of a block's equations, and one by one.
     fn add_up(&self, block: usize, part: &mut Part) -> Result<(), Empty> {
         match (self.blocks.get(block), self.sums.get(block)) {
-            (Some(block), Some(sums)) => self.rows.add_up(&self.eq, (block, sums), part),
+            (Some(block), Some(sums)) => self.rows.add_up((block, sums), part),
             _ => Ok(()),
         }
     }
