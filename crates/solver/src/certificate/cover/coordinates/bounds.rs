@@ -129,7 +129,7 @@ impl Expanded {
     }
 
     /// The greatest |t| if all unknowns are α + β t.
-    fn greatest(&self, lines: &[[Interval; 2]]) -> Option<f64> {
+    pub fn greatest(&self, lines: &[[Interval; 2]]) -> Option<f64> {
         let (mut a, mut b, mut c) = (ZERO, ZERO, self.constant);
         for (&(k, l), &q) in &self.squares {
             let (q, [alpha, beta], [gamma, delta]) = (point(q as f64), lines[k], lines[l]);
@@ -159,9 +159,12 @@ impl Expanded {
 }
 
 /// Takes an unknown out of all rows but one, by multiples of that one (Gauss and Jordan, in intervals).
-fn eliminate(rows: &mut [Expanded], one: usize, unknown: usize) {
+pub fn eliminate(rows: &mut [Expanded], one: usize, unknown: usize) {
     let pivot = rows[one].clone();
-    for (_, row) in rows.iter_mut().enumerate().filter(|(j, _)| *j != one) {
+    for (j, row) in rows.iter_mut().enumerate() {
+        if j == one || row.linear[unknown] == ZERO {
+            continue;
+        }
         let by = row.linear[unknown] / pivot.linear[unknown];
         let pairs = row.linear.iter_mut().zip(&pivot.linear);
         pairs.for_each(|(x, y)| *x -= by * *y);
@@ -206,9 +209,8 @@ pub fn far(rows: impl Iterator<Item = Expanded>, n: usize) -> Vec<(usize, Interv
     found.collect()
 }
 
-/// Ranges that hold the n unknowns of a block at every zero of its equations in a part. `None`: nothing follows.
-pub fn bounds(rows: &[Expanded], n: usize) -> Option<Vec<Interval>> {
-    // What is linear, and what is not.
+/// The linear equations that come of these by adding whole multiples of others.
+pub fn without_products(rows: &[Expanded]) -> Option<Vec<Expanded>> {
     let (mut linear, mut curved): (Vec<Expanded>, Vec<Expanded>) = (Vec::new(), Vec::new());
     for row in rows {
         let mut row = row.clone();
@@ -223,6 +225,12 @@ pub fn bounds(rows: &[Expanded], n: usize) -> Option<Vec<Interval>> {
             false => curved.push(row),
         }
     }
+    Some(linear)
+}
+
+/// Ranges that hold the n unknowns of a block at every zero of its equations in a part. `None`: nothing follows.
+pub fn bounds(rows: &[Expanded], n: usize) -> Option<Vec<Interval>> {
+    let mut linear = without_products(rows)?;
     linear.truncate(n);
     if linear.len() + 1 < n {
         return None;

@@ -5,12 +5,12 @@
 //! ([`symmetry`]). A part's ranges are narrowed without losing any zero ([`space`]), parts are halved, and one that is left is within
 //! the distance around a listed zero in which certificates' test for one figure proves that there is no other.
 
-mod bounds;
+pub mod bounds;
 mod format;
 mod independent;
 mod shared;
 mod space;
-mod sums;
+pub mod sums;
 mod symmetry;
 mod turns;
 
