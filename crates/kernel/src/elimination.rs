@@ -64,21 +64,6 @@ pub fn invert<F: Field>(a: &mut [F], n: usize) -> bool {
     true
 }
 
-/// Takes multiples of a row from all others, so that nothing is left of them in a column.
-pub fn clear<F: Field>(rows: &mut [Vec<F>], pivot: usize, column: usize) {
-    let (zero, top) = (F::whole(0), rows[pivot].clone());
-    for (_, row) in rows.iter_mut().enumerate().filter(|(k, _)| *k != pivot) {
-        if row[column] != zero {
-            let factor = row[column].clone() / top[column].clone();
-            for (x, y) in row.iter_mut().zip(&top) {
-                *x = x.clone() - factor.clone() * y.clone();
-            }
-            // The same numbers in both, so that nothing is left of this one, though it may be known within bounds only.
-            row[column] = zero.clone();
-        }
-    }
-}
-
 /// Rows in row echelon form, taken one after the other, of numbers that are not rounded.
 pub struct Echelon<F> {
     /// For each column the row that begins there: columns, ascending, and entries that are not 0; the first is 1.

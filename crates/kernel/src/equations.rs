@@ -218,6 +218,28 @@ pub fn slopes<'p, E: Copy + PartialEq + 'p, T: Halved>(
     }
 }
 
+/// Whether some entries' change of signs reverses a sum of products (`Some(true)`), leaves it (`Some(false)`), or does neither. An entry of
+/// which `changes` says nothing is the number 0, which has both signs.
+pub fn sign<E: Copy + PartialEq, F: Copy>(
+    products: &[Product<E, F>],
+    changes: impl Fn(E) -> Option<bool>,
+) -> Option<bool> {
+    let of = |form: Form<E>| match form.map(&changes) {
+        // Both ends change together.
+        Form::Difference(Some(a), Some(b)) => (a == b).then_some(a),
+        Form::Difference(a, b) => Some(a.or(b).unwrap_or(false)),
+        Form::One => Some(false),
+    };
+    // A difference of an entry and itself is nothing, whatever multiplies it.
+    let is_nothing = |form: Form<E>| matches!(form, Form::Difference(a, b) if a == b);
+    let products = products.iter();
+    let mut signs = products
+        .filter(|p| !p.forms().into_iter().any(is_nothing))
+        .map(|p| Some(of(p.left)? ^ of(p.right)?));
+    let first = signs.next().unwrap_or(Some(false))?;
+    signs.all(|sign| sign == Some(first)).then_some(first)
+}
+
 impl Product<Option<usize>> {
     /// The product multiplied out: for each of the terms the numbers of the unknowns in it, in order, and its factor. An entry
     /// that is `None` is the number 0.
@@ -267,6 +289,32 @@ mod tests {
             Product::new(1, Form::One, Form::Difference('x', 'x')).value(at),
             0.0
         );
+    }
+
+    /// With other signs of x₀ and x₁, which have those of no other.
+    #[test]
+    fn a_sum_is_reversed_left_or_neither() {
+        let form = |a, b| Form::Difference(a, b);
+        let (one, other) = (form(Some(0), Some(1)), form(Some(2), None));
+        let of = |products: &[[Form<Option<usize>>; 2]]| {
+            let products = products.iter();
+            let products: Vec<_> = products.map(|&[l, r]| Product::new(1, l, r)).collect();
+            sign(&products, |entry| entry.map(|i| i < 2))
+        };
+        assert_eq!(
+            of(&[[one, other], [form(None, Some(1)), Form::One]]),
+            Some(true)
+        );
+        assert_eq!(
+            of(&[[one, one], [other, other], [Form::One, other]]),
+            Some(false)
+        );
+        assert_eq!(of(&[[one, one], [one, other]]), None);
+        assert_eq!(of(&[[form(Some(0), Some(2)), other]]), None);
+        // What is nothing says nothing.
+        let nothing = [[form(Some(2), Some(2)), one], [form(None, None), one]];
+        assert_eq!(of(&nothing), Some(false));
+        assert_eq!(of(&[nothing[0], [one, other], nothing[1]]), Some(true));
     }
 
     /// 2 (x₁ − x₀)(0 − x₀), and 3 · 1 · (x₁ − 0).

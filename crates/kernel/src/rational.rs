@@ -186,6 +186,13 @@ impl Rational {
         }
     }
 
+    /// The root that is not negative, if that is a ratio.
+    pub fn sqrt(&self) -> Option<Self> {
+        let root = |x: &BigInt| Some(x.sqrt()).filter(|root| root * root == *x);
+        let is_served = !self.is_negative();
+        is_served.then(|| Some(Rational::new(root(&self.above)?, root(&self.below)?)))?
+    }
+
     /// The largest whole number that is not above it.
     pub fn floor(&self) -> Self {
         Rational::from_integer(self.above.div_floor(&self.below))
@@ -456,6 +463,15 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn roots_are_those_of_squares_of_ratios() {
+        let ratio = |above: i64, below: i64| Rational::new(above.into(), below.into());
+        assert_eq!(ratio(49, 100).sqrt(), Some(ratio(7, 10)));
+        assert_eq!(ratio(0, 1).sqrt(), Some(ratio(0, 1)));
+        assert_eq!(ratio(1, 2).sqrt(), None);
+        assert_eq!(ratio(-1, 4).sqrt(), None);
     }
 
     #[test]

@@ -14,6 +14,7 @@ pub mod complex;
 mod digits;
 mod double_double;
 mod enclosure;
+mod halves;
 #[cfg(any(test, not(hardware_intervals), feature = "portable"))]
 mod portable;
 mod real;
@@ -24,6 +25,8 @@ pub mod vector;
 pub use digits::certain_digits;
 pub use double_double::{DoubleDouble, at_least, gamma_double};
 pub use enclosure::{enclose, enclose_rational};
+#[doc(hidden)]
+pub use halves::{halves, is_narrower, upper_half};
 #[cfg(all(hardware_intervals, not(feature = "portable")))]
 pub use inari::Interval;
 #[cfg(any(not(hardware_intervals), feature = "portable"))]

@@ -147,9 +147,8 @@ impl Real {
     pub fn sqrt(self) -> Self {
         if let Real::Rational(value) = &self {
             assert!(!value.is_negative(), "the root of a negative number");
-            let (above, below) = (value.numer().sqrt(), value.denom().sqrt());
-            if &above * &above == *value.numer() && &below * &below == *value.denom() {
-                return Real::Rational(Rational::new(above, below));
+            if let Some(root) = value.sqrt() {
+                return Real::Rational(root);
             }
         }
         Real::Root(Shared::new(self))

@@ -135,10 +135,9 @@ impl Number {
         if value.is_negative() {
             return None;
         }
-        let root = Rational::new(value.numer().sqrt(), value.denom().sqrt());
-        Some(match &root * &root == *value {
-            true => Self::exactly(root),
-            false => Self::within(Real::from(value.clone()).sqrt().enclose()),
+        Some(match value.sqrt() {
+            Some(root) => Self::exactly(root),
+            None => Self::within(Real::from(value.clone()).sqrt().enclose()),
         })
     }
 

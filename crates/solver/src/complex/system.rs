@@ -2,7 +2,7 @@
 
 use super::exact::{Exact, Parameter, zero};
 use crate::constraint::{self, Entry, Role, Tail};
-use crate::equations::{Form, Product};
+use crate::equations::{Form, Product, sign};
 use crate::hexadecimal::hexadecimal;
 use crate::interval::point;
 use crate::system::{Homotopy, Right, Term};
@@ -245,9 +245,9 @@ impl System {
     /// Whether a change of signs leaves every equation as it is, or reverses one that `vanishes`.
     pub(super) fn keeps(&self, changes: &[bool], vanishes: impl Fn(&Equation) -> bool) -> bool {
         let mut equations = self.equations.iter();
-        equations.all(|equation| match sign_of(equation, changes) {
-            Some(reversed) => !reversed || vanishes(equation),
-            None => false,
+        equations.all(|equation| {
+            let sign = sign(&equation.terms, |entry| entry.map(|i| changes[i]));
+            sign.is_some_and(|reversed| !reversed || vanishes(equation))
         })
     }
 
@@ -287,27 +287,6 @@ impl Equation {
             Kind::Parameter(value) => value.iter().all(|part| part.is_zero()),
         }
     }
-}
-
-/// Whether a change of signs reverses the left-hand side (`Some(true)`), leaves it, or does neither.
-pub(super) fn sign_of(equation: &Equation, changes: &[bool]) -> Option<bool> {
-    let form = |form: Form<Option<usize>>| match form.map(|entry| entry.map(|i| changes[i])) {
-        Form::Difference(Some(a), Some(b)) => (a == b).then_some(a),
-        Form::Difference(Some(a), None) | Form::Difference(None, Some(a)) => Some(a),
-        Form::Difference(None, None) | Form::One => Some(false),
-    };
-    let mut sign = None;
-    // A difference of a number and itself, or of coordinates that are zero, is nothing, whatever multiplies it.
-    let is_nothing = |form: Form<Option<usize>>| matches!(form, Form::Difference(a, b) if a == b);
-    let terms = equation.terms.iter();
-    for term in terms.filter(|term| !term.forms().into_iter().any(is_nothing)) {
-        let this = form(term.left)? ^ form(term.right)?;
-        if sign.is_some_and(|sign| sign != this) {
-            return None;
-        }
-        sign = Some(this);
-    }
-    sign
 }
 
 /// The products of the real and the imaginary part of a complex equation in n unknowns:

@@ -10,9 +10,7 @@ use super::factors::Equal;
 use super::quadratic::{Product, Tail};
 use crate::interval::Real;
 use crate::rational::Rational;
-use num_bigint::BigInt;
 use num_integer::Integer;
-use num_traits::Signed;
 use std::collections::VecDeque;
 
 /// Takes from each equation those of which all products are in it, as long as some are left.
@@ -69,8 +67,7 @@ fn is_given(products: &[(Key, Product)], right: &Real) -> bool {
         // Products are of twice the left-hand side.
         [((factor, one, other), _)] if one == other => {
             let square = right * Rational::new(2.into(), (*factor).into());
-            let is_square = |n: &BigInt| !n.is_negative() && n.sqrt().pow(2) == *n;
-            is_square(square.numer()) && is_square(square.denom())
+            square.sqrt().is_some()
         }
         _ => true,
     }

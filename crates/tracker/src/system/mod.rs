@@ -6,6 +6,7 @@
 
 mod edit;
 mod exact;
+mod follows;
 mod gauge;
 mod heights;
 mod homotopy;

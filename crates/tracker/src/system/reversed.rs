@@ -1,10 +1,21 @@
-//! Figures that may differ in nothing but the directions of lines and planes of their own.
+//! Changes of signs; figures that may differ in nothing but the directions of lines and planes of their own.
 
 use super::Homotopy;
 use crate::constraint::Entry;
+use crate::equations::sign;
+use crate::interval::ZERO;
 use crate::problem::{Problem, most_along};
 
 impl Homotopy {
+    /// Whether the equations at t = 1 hold with these unknowns' signs changed wherever they hold without: each stays as it is, or
+    /// changes its sign and has 0 on the right.
+    pub fn keeps(&self, changes: &[bool]) -> bool {
+        (0..self.equations).all(|e| {
+            let sign = sign(&self.terms(e), |entry| entry.map(|i| changes[i]));
+            sign.is_some_and(|reversed| !reversed || self.rights[e].at_target() == ZERO)
+        })
+    }
+
     /// Whether two different solutions may be one figure: with the same points and radii, and with lines and planes of
     /// their own that are the same but run the other way in at least one place. Where such a reversal is one of the known
     /// changes of sign (`twins`, of which the callers see whether they lead from one solution to the other) this is

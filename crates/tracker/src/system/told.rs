@@ -184,15 +184,6 @@ pub fn range(x: &Rational) -> Interval {
     }
 }
 
-/// The root of a ratio, if it is one.
-fn root(x: &Rational) -> Option<Rational> {
-    let whole = |n: &BigInt| Some(n.sqrt()).filter(|r| r * r == *n);
-    match x.is_negative() {
-        true => None,
-        false => Some(Rational::new(whole(x.numer())?, whole(x.denom())?)),
-    }
-}
-
 impl Told {
     /// The unknowns whose values are known.
     pub fn values(&self) -> impl Iterator<Item = (usize, &Rational)> {
@@ -349,7 +340,7 @@ impl Told {
                 if is_ratio && square.is_zero() {
                     return with(vec![left.clone()], None);
                 }
-                let (symbol, range) = match root(&square).filter(|_| is_ratio) {
+                let (symbol, range) = match square.sqrt().filter(|_| is_ratio) {
                     Some(root) => (Quadratic::constant(root), None),
                     None => {
                         let number = 2 * homotopy.equations + e;
@@ -370,7 +361,7 @@ impl Told {
             [(f, [p, q]), (g, [r, s])] if is_zero => {
                 let ratio = -(g / f);
                 if p == q && r == s {
-                    let root = root(&ratio)?;
+                    let root = ratio.sqrt()?;
                     return with(vec![sum(p, &-root.clone(), r), sum(p, &root, r)], None);
                 }
                 // A factor in common, or its opposite.
@@ -579,14 +570,6 @@ mod tests {
 
     fn ratio(a: i64, b: i64) -> Rational {
         Rational::new(BigInt::from(a), BigInt::from(b))
-    }
-
-    #[test]
-    fn roots_are_those_of_squares_of_ratios() {
-        assert_eq!(root(&ratio(49, 100)), Some(ratio(7, 10)));
-        assert_eq!(root(&ratio(0, 1)), Some(ratio(0, 1)));
-        assert_eq!(root(&ratio(1, 2)), None);
-        assert_eq!(root(&ratio(-1, 4)), None);
     }
 
     #[test]

@@ -39,6 +39,14 @@ const MAX_FACTORS: i64 = 1 << 12;
 
 pub use crate::interval::ZERO;
 
+/// The two of which a form is the difference, where there are m unknowns. The number 1 has an index of its own.
+pub fn ends(form: Form<Option<usize>>, m: usize) -> [usize; 2] {
+    match form.map(|entry| entry.unwrap_or(m + 1)) {
+        Form::Difference(a, b) => [a, b],
+        Form::One => [m + 2, m + 1],
+    }
+}
+
 impl Equations {
     pub fn new(homotopy: Homotopy) -> Self {
         let m = homotopy.equations;
@@ -46,17 +54,12 @@ impl Equations {
         for e in 0..m {
             let mut all = Vec::new();
             for term in homotopy.terms(e) {
-                // The number 1 has an index of its own.
-                let mut form = |form: Form<Option<usize>>| {
-                    forms.push(match form.map(|entry| entry.unwrap_or(m + 1)) {
-                        Form::Difference(a, b) => [a, b],
-                        Form::One => [m + 2, m + 1],
-                    });
-                    forms.len() - 1
-                };
-                let (left, same) = (form(term.left), term.left == term.right);
-                let right = if same { left } else { form(term.right) };
-                all.push((i64::from(term.factor), [left, right]));
+                let left = forms.len();
+                forms.push(ends(term.left, m));
+                if term.left != term.right {
+                    forms.push(ends(term.right, m));
+                }
+                all.push((i64::from(term.factor), [left, forms.len() - 1]));
             }
             assert!(all.iter().map(|p: &Product| p.0.abs()).sum::<i64>() <= MAX_FACTORS);
             products.push(all);

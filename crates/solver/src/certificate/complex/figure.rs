@@ -4,7 +4,7 @@ use super::zero::{Quadratic, Z, Zero};
 use crate::equations::Form;
 use crate::interval::complex::Complex;
 use crate::interval::{DoubleDouble, Interval, point};
-use crate::problem::{Problem, Target};
+use crate::problem::Problem;
 use crate::rational::Rational;
 use crate::system::Term;
 
@@ -21,14 +21,6 @@ pub struct Equations {
     pub changes: [Vec<bool>; 2],
     /// For each unknown whether it is a first coordinate.
     is_first: Vec<bool>,
-}
-
-/// The square of a distance.
-pub fn square(target: &Target) -> Rational {
-    match target {
-        Target::Length(length) => length.value() * length.value(),
-        Target::SquaredLength(squared) => squared.value().clone(),
-    }
 }
 
 /// Numbers from a file: real and imaginary part, perhaps with what these leave; `None`: there are not two or four of them.
@@ -54,7 +46,7 @@ impl Equations {
             let joins = |x: &&crate::problem::Distance| x.points == [a, b] || x.points == [b, a];
             let found = problem.distances.iter().find(joins);
             found
-                .map(|x| square(&x.target))
+                .map(|x| x.target.squared())
                 .ok_or_else(|| "the fixed points are not joined by distances".to_owned())
         };
         match (d, fixed) {
@@ -103,7 +95,7 @@ impl Equations {
                 let form = Form::Difference(a, b);
                 Term::new(2, form, form)
             };
-            ((0..d).map(term).collect(), square(&distance.target))
+            ((0..d).map(term).collect(), distance.target.squared())
         };
         Ok(Equations {
             dimension: d,

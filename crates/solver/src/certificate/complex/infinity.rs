@@ -14,11 +14,11 @@
 //! not zero in S nor σ in O; Σ Δλ Δτ / Δν around the cycle is not zero; no other one of this departure is the same zero.
 
 use super::ComplexFlaw;
-use super::figure::{number, square};
+use super::figure::number;
 use super::zero::{Quadratic, Z, Zero};
 use crate::equations::Form;
-use crate::interval::{Interval, Real, enclose_rational, point};
-use crate::problem::{Problem, Target};
+use crate::interval::{Interval, enclose_rational, point};
+use crate::problem::Problem;
 use crate::rational::Rational;
 use crate::system::Term;
 use rayon::prelude::*;
@@ -37,19 +37,25 @@ pub struct Departure {
 }
 
 /// Unknowns of a point: Λ or λ, ν, τ or σ.
-const LAMBDA: usize = 0;
-const NU: usize = 1;
-const SIGMA: usize = 2;
+pub const LAMBDA: usize = 0;
+/// See [`LAMBDA`].
+pub const NU: usize = 1;
+/// See [`LAMBDA`].
+pub const SIGMA: usize = 2;
 
-fn unknown(point: usize, which: usize) -> usize {
+/// The number of such an unknown of a point among all.
+pub fn unknown(point: usize, which: usize) -> usize {
     3 * point + which
 }
 
 /// Where a point is.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Part {
+pub enum Part {
+    /// In S.
     Goes,
+    /// In L.
     Link,
+    /// In O.
     Stays,
 }
 
@@ -72,14 +78,6 @@ fn wrong<T>(text: &str) -> Result<T, ComplexFlaw> {
 
 fn doubt<T>(text: &str) -> Result<T, ComplexFlaw> {
     Err(ComplexFlaw::NotProved(text.to_owned()))
-}
-
-/// The length of a distance, if it is a ratio.
-fn length(target: &Target) -> Option<Rational> {
-    match target {
-        Target::Length(length) => Some(length.value().clone()),
-        squared => Real::from(square(squared)).sqrt().as_rational().cloned(),
-    }
 }
 
 impl Chart {
@@ -130,7 +128,7 @@ impl Chart {
                 rises if rises.iter().any(|rise| is(rise, b, a)) => [b, a],
                 _ => return wrong("it is not said how a distance between neighbours rises"),
             };
-            match length(&distance.target) {
+            match distance.target.squared().sqrt() {
                 Some(length) => among.push((ends, length)),
                 None => return doubt("a length between neighbours is no ratio"),
             }
@@ -176,17 +174,15 @@ impl Chart {
         {
             return wrong("the first ν that is not zero is not positive");
         }
-        let value = |whole: i64| Rational::from_integer(whole.into());
-        let mut values = vec![
-            (unknown(origin, LAMBDA), value(0)),
-            (unknown(origin, SIGMA), value(0)),
-            (unknown(near, NU), value(0)),
-            (unknown(near, SIGMA), value(1)),
-            (unknown(away, NU), value(0)),
-            (unknown(away, LAMBDA), value(1)),
-        ];
-        values.extend(link().map(|p| (unknown(p, NU), heights[p].clone())));
-        let system = equations(problem, &parts, values);
+        let distances = problem.distances.iter();
+        let distances = distances.map(|d| (d.points, d.target.squared()));
+        let equations = rows(
+            distances,
+            |p| parts[p],
+            link().map(|p| (p, heights[p].clone())),
+            [origin, near, away],
+        );
+        let system = Quadratic::new(3 * n, equations);
         Ok(Chart {
             system,
             parts,
@@ -237,21 +233,25 @@ impl Chart {
     }
 }
 
-/// The equations at ε = 0, where these unknowns have these values.
-fn equations(problem: &Problem, parts: &[Part], values: Vec<(usize, Rational)>) -> Quadratic {
-    let count = 3 * problem.points.len();
+/// The equations at ε = 0, with half the sum of their terms on the left: those of distances, given with their squares, and those that
+/// say what unknowns are: of the points of L their ν (`heights`), and what is chosen for its first point, one of O and one of S.
+pub fn rows(
+    distances: impl IntoIterator<Item = ([usize; 2], Rational)>,
+    part: impl Fn(usize) -> Part,
+    heights: impl IntoIterator<Item = (usize, Rational)>,
+    [origin, near, away]: [usize; 3],
+) -> Vec<(Vec<Term>, Rational)> {
     let term = |left, right| Term::new(2, left, right);
-    let mut equations = Vec::with_capacity(count);
-    for distance in &problem.distances {
-        let [a, b] = distance.points;
+    let mut rows = Vec::new();
+    for ([a, b], squared) in distances {
         let both =
             |which: usize| Form::Difference(Some(unknown(a, which)), Some(unknown(b, which)));
         // The difference of what points of one part have, which stands for nothing at others.
-        let only = |which: usize, part: Part| {
-            let entry = |p: usize| (parts[p] == part).then(|| unknown(p, which));
+        let only = |which: usize, of: Part| {
+            let entry = |p: usize| (part(p) == of).then(|| unknown(p, which));
             Form::Difference(entry(a), entry(b))
         };
-        let product = match [parts[a], parts[b]] {
+        let product = match [part(a), part(b)] {
             [Part::Link, Part::Link] => continue,
             // Λ Δτ
             [Part::Goes, Part::Link] | [Part::Link, Part::Goes] => {
@@ -263,13 +263,24 @@ fn equations(problem: &Problem, parts: &[Part], values: Vec<(usize, Rational)>) 
             }
             _ => term(both(LAMBDA), both(SIGMA)),
         };
-        let heights = term(both(NU), both(NU));
-        equations.push((vec![heights, product], square(&distance.target)));
+        rows.push((vec![term(both(NU), both(NU)), product], squared));
     }
-    let values = values.into_iter();
+    let known = [
+        (unknown(origin, LAMBDA), 0),
+        (unknown(origin, SIGMA), 0),
+        (unknown(near, NU), 0),
+        (unknown(near, SIGMA), 1),
+        (unknown(away, NU), 0),
+        (unknown(away, LAMBDA), 1),
+    ];
+    let known = known.map(|(u, value)| (u, Rational::from_integer(value.into())));
+    let heights = heights
+        .into_iter()
+        .map(|(p, height)| (unknown(p, NU), height));
     let only = |unknown: usize| Form::Difference(Some(unknown), None);
-    equations.extend(values.map(|(u, value)| (vec![term(only(u), Form::One)], value)));
-    Quadratic::new(count, equations)
+    let known = known.into_iter().chain(heights);
+    rows.extend(known.map(|(u, value)| (vec![term(only(u), Form::One)], value)));
+    rows
 }
 
 /// Checks all figures at infinity that are claimed. For each departure the points that go and how many figures there are.

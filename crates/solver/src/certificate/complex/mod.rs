@@ -9,7 +9,7 @@
 mod bezout;
 mod figure;
 mod general;
-mod infinity;
+pub mod infinity;
 mod zero;
 
 use super::Compared;

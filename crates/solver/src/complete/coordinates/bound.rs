@@ -7,19 +7,17 @@
 //! Where fewer come of it, those unknowns are bounded that a linear equation tells by itself; and a linear equation of which elimination
 //! leaves a number that is not 0 has no zero.
 
-use super::contract::{Empty, entire};
-use super::expanded::Expanded;
+use super::expanded::equations;
 use super::newton::Square;
-use crate::elimination::clear;
+use crate::certificate::cover::coordinates::Empty;
+use crate::certificate::cover::coordinates::bounds::{Expanded, eliminate, without_products};
 use crate::interval::{Interval, ZERO, checked, point};
 
 /// Ranges of the unknowns of a block, in order, that hold all of its zeros; [`Empty`] where linear equations contradict each other.
 pub fn bounds(square: &Square, x: &[Interval]) -> Result<Vec<Interval>, Empty> {
     let n = square.own.len();
-    let unknown = || Ok(vec![entire(); n]);
-    let rows = square.rows.iter();
-    let rows = rows.filter_map(|row| Expanded::new(row, square, x));
-    let rows: Vec<Expanded> = rows.collect();
+    let unknown = || Ok(vec![Interval::ENTIRE; n]);
+    let rows = equations(square, x);
     let Some(mut linear) = without_products(&rows) else {
         return unknown();
     };
@@ -27,15 +25,17 @@ pub fn bounds(square: &Square, x: &[Interval]) -> Result<Vec<Interval>, Empty> {
     let mut pivots: Vec<Option<usize>> = vec![None; linear.len()];
     for k in 0..linear.len() {
         let left = (0..n).filter(|&c| !pivots.contains(&Some(c)));
-        let size = |c: usize| linear[k][c].mig();
+        let size = |c: usize| linear[k].linear[c].mig();
         let best = left.max_by(|&a, &b| size(a).total_cmp(&size(b)));
         match best.filter(|&c| size(c) > 0.0) {
             Some(best) => {
-                clear(&mut linear, k, best);
+                eliminate(&mut linear, k, best);
                 pivots[k] = Some(best);
             }
             // No unknown is left in it.
-            None if linear[k][..n].iter().all(|b| *b == ZERO) && !linear[k][n].contains(0.0) => {
+            None if linear[k].linear.iter().all(|b| *b == ZERO)
+                && !linear[k].constant.contains(0.0) =>
+            {
                 return Err(Empty);
             }
             None => {}
@@ -45,86 +45,39 @@ pub fn bounds(square: &Square, x: &[Interval]) -> Result<Vec<Interval>, Empty> {
     let t = free.next();
     let is_line = free.next().is_none();
     // x = α + β t, if no other unknown that is not eliminated is in its row.
-    let line = |i: usize| -> Option<(Interval, Interval)> {
+    let line = |i: usize| -> Option<[Interval; 2]> {
         let Some(k) = pivots.iter().position(|&p| p == Some(i)) else {
-            return Some((ZERO, point(1.0)));
+            return Some([ZERO, point(1.0)]);
         };
-        let row = &linear[k];
-        let others = (0..n).filter(|&c| c != i && row[c] != ZERO);
+        let Expanded {
+            linear, constant, ..
+        } = &linear[k];
+        let others = (0..n).filter(|&c| c != i && linear[c] != ZERO);
         let slope = match t {
-            Some(t) if is_line => -(row[t] / row[i]),
+            Some(t) if is_line => -(linear[t] / linear[i]),
             _ if others.count() == 0 => ZERO,
             _ => return None,
         };
-        Some((-(row[n] / row[i]), slope))
+        Some([-(*constant / linear[i]), slope])
     };
-    let lines: Vec<Option<(Interval, Interval)>> = (0..n).map(line).collect();
-    let whole: Option<Vec<(Interval, Interval)>> = lines.iter().copied().collect();
+    let lines: Vec<Option<[Interval; 2]>> = (0..n).map(line).collect();
+    let whole: Option<Vec<[Interval; 2]>> = lines.iter().copied().collect();
     let range = match (t, whole) {
         (None, _) => ZERO,
         (Some(_), Some(lines)) if is_line => {
-            let ranges = rows.iter().filter_map(|row| root_range(row, &lines));
-            let least = ranges.min_by(|a, b| a.mag().total_cmp(&b.mag()));
-            least.unwrap_or_else(entire)
+            let sizes = rows.iter().filter_map(|row| row.greatest(&lines));
+            let most = sizes.min_by(f64::total_cmp);
+            most.and_then(|most| checked(-most, most))
+                .unwrap_or(Interval::ENTIRE)
         }
-        _ => entire(),
+        _ => Interval::ENTIRE,
     };
-    let range_of = |line: &Option<(Interval, Interval)>| match line {
-        Some((alpha, beta)) if *beta == ZERO => *alpha,
-        Some((alpha, beta)) => *alpha + *beta * range,
-        None => entire(),
+    let range_of = |line: &Option<[Interval; 2]>| match line {
+        Some([alpha, beta]) if *beta == ZERO => *alpha,
+        Some([alpha, beta]) => *alpha + *beta * range,
+        None => Interval::ENTIRE,
     };
     Ok(lines.iter().map(range_of).collect())
-}
-
-/// The linear equations that come of rows by adding whole multiples of others: factors, and what is added.
-fn without_products(rows: &[Expanded]) -> Option<Vec<Vec<Interval>>> {
-    let mut linear: Vec<Vec<Interval>> = Vec::new();
-    let mut curved: Vec<Expanded> = Vec::new();
-    for mut row in rows.iter().cloned() {
-        for pivot in &curved {
-            let Some((&key, &p)) = pivot.quadratic.first_key_value() else {
-                continue;
-            };
-            if let Some(&q) = row.quadratic.get(&key) {
-                row = row.less(p, pivot, q)?;
-            }
-        }
-        match row.quadratic.is_empty() {
-            true => linear.push([row.linear, vec![row.constant]].concat()),
-            false => curved.push(row),
-        }
-    }
-    Some(linear)
-}
-
-/// Where t may be, if a row with all unknowns linear in t is quadratic in it.
-fn root_range(row: &Expanded, lines: &[(Interval, Interval)]) -> Option<Interval> {
-    let (mut a, mut b, mut c) = (ZERO, ZERO, row.constant);
-    for (&(i, j), &q) in &row.quadratic {
-        let q = point(0.25 * q as f64);
-        let ((alpha, beta), (gamma, delta)) = (lines[i], lines[j]);
-        if i == j {
-            a += q * beta.sqr();
-            c += q * alpha.sqr();
-        } else {
-            a += q * beta * delta;
-            c += q * alpha * gamma;
-        }
-        b += q * (alpha * delta + beta * gamma);
-    }
-    for (l, (alpha, beta)) in row.linear.iter().zip(lines) {
-        b += *l * *beta;
-        c += *l * *alpha;
-    }
-    let is_bounded = [a, b, c].iter().all(|x| x.is_common_interval());
-    if !(is_bounded && a.mig() > 0.0) {
-        return None;
-    }
-    let (b, ac) = (point(b.mag()), point(a.mag()) * point(c.mag()));
-    let most = (b + (b.sqr() + point(4.0) * ac).sqrt()) / (point(2.0) * point(a.mig()));
-    let most = most.sup();
-    most.is_finite().then(|| checked(-most, most))?
 }
 
 #[cfg(test)]
@@ -153,7 +106,7 @@ mod tests {
 
     #[test]
     fn a_circle_that_touches_three_others_is_not_far() {
-        let mut x = vec![entire(), entire(), entire(), ZERO];
+        let mut x = vec![Interval::ENTIRE, Interval::ENTIRE, Interval::ENTIRE, ZERO];
         let rows = [[0.0, 0.0, 1.0], [7.0, 0.0, 1.5], [2.0, 6.0, -2.0]];
         let rows = rows.map(|circle| cone(circle, 3, &mut x));
         let mut place = vec![KNOWN; x.len()];

@@ -6,30 +6,13 @@
 //! (x − (a + b)/2)² is L · R + ((a − b)/2)². All are evaluated in intervals, so that they hold
 //! for every zero in the box and every value that the numbers of blocks before may have.
 
-use super::system::{Form, Row, Shared, product};
-use crate::interval::{Interval, ZERO, checked, point};
+use super::system::{Form, Row, product, shared};
+use crate::certificate::cover::coordinates::{Empty, ROUNDS};
+use crate::interval::{Interval, ZERO, checked, is_narrower, point, upper_half};
 use crate::places::Each as _;
 
-/// A box in which nothing is left.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Empty;
-
-/// An unknown counts as changed where its range became narrower by this part of it.
-const ENOUGH: f64 = 0.05;
-/// How often the rows are gone through.
-const ROUNDS: usize = 12;
-/// The same where one entry became narrower.
+/// How often the rows are gone through where one entry became narrower.
 const FEW_ROUNDS: usize = 2;
-
-/// All numbers.
-pub fn entire() -> Interval {
-    checked(f64::NEG_INFINITY, f64::INFINITY).expect("an interval")
-}
-
-/// All numbers that are not negative.
-pub fn upper_half() -> Interval {
-    checked(0.0, f64::INFINITY).expect("an interval")
-}
 
 /// Contracts the entries that are free by all rows, again and again while that helps.
 pub fn contract(rows: &[&Row], is_free: &[bool], x: &mut [Interval]) -> Result<(), Empty> {
@@ -109,23 +92,23 @@ fn revise(
         if p.left == p.right {
             let root = root(wanted)?;
             let (least, most) = (root.inf(), root.sup());
-            let within = checked(-most, most).unwrap_or_else(entire);
+            let within = checked(-most, most).unwrap_or(Interval::ENTIRE);
             narrow(p.left, within, least, is_free, x, &mut tell)?;
             continue;
         }
-        if let Some(shared) = Shared::of(p, x)
-            && is_free[shared.entry]
+        if let Some(shared) = shared(p, x)
+            && is_free[shared.x]
         {
-            let root = root(shared.square(wanted))?;
-            let old = x[shared.entry];
-            let [low, high] = [-root, root].each(|side| old.intersection(shared.middle + side));
+            let root = root(shared.square(wanted, x))?;
+            let (old, middle) = (x[shared.x], shared.middle(x));
+            let [low, high] = [-root, root].each(|side| old.intersection(middle + side));
             let new = match (low.is_empty(), high.is_empty()) {
                 (true, true) => return Err(Empty),
                 (false, true) => low,
                 (true, false) => high,
                 (false, false) => low.convex_hull(high),
             };
-            set(shared.entry, new, x, &mut tell);
+            set(shared.x, new, x, &mut tell);
         }
         for (this, other) in [(p.left, p.right), (p.right, p.left)] {
             if this == Form::One {
@@ -141,7 +124,7 @@ fn revise(
                     return Err(Empty);
                 }
                 let least = point(wanted.mig()) / magnitude(by);
-                narrow(this, entire(), least.inf(), is_free, x, &mut tell)?;
+                narrow(this, Interval::ENTIRE, least.inf(), is_free, x, &mut tell)?;
             } else {
                 narrow(this, wanted / by, 0.0, is_free, x, &mut tell)?;
             }
@@ -218,20 +201,7 @@ fn narrow(
 /// Puts a narrower range in the place of an entry's, and tells it if it is worth it.
 fn set(entry: usize, new: Interval, x: &mut [Interval], tell: &mut impl FnMut(usize)) {
     let old = std::mem::replace(&mut x[entry], new);
-    if new == old {
-        return;
-    }
-    let is_told = match (old.wid().is_finite(), new.wid().is_finite()) {
-        (true, _) => new.wid() < (1.0 - ENOUGH) * old.wid(),
-        (false, finite) => {
-            // Of an unbounded range a bound that is new, or one that moved well.
-            let moved = |old: f64, new: f64| {
-                new != old && !(old.is_finite() && (new - old).abs() < 0.5 * old.abs())
-            };
-            finite || moved(old.inf(), new.inf()) || moved(old.sup(), new.sup())
-        }
-    };
-    if is_told {
+    if is_narrower(new, old) {
         tell(entry);
     }
 }
@@ -241,6 +211,8 @@ mod tests {
     use super::super::system::Product;
     use super::*;
     use crate::interval::hull;
+
+    const ALL: Interval = Interval::ENTIRE;
 
     fn square(a: usize, b: usize) -> Product {
         let form = Form::Difference(a, b);
@@ -255,7 +227,7 @@ mod tests {
     fn a_circle_bounds_what_was_unbounded() {
         // x² + y² = 4, entry 2 being 0.
         let row = Row::new(vec![square(0, 2), square(1, 2)], point(4.0), 2);
-        let mut x = vec![entire(), upper_half(), ZERO];
+        let mut x = vec![ALL, upper_half(), ZERO];
         contract(&[&row], &[true, true, false], &mut x).unwrap();
         assert_eq!(x, [hull(-2.0, 2.0), hull(0.0, 2.0), ZERO]);
         // Where x is at least 1.5, y is at most √1.75, and the other way round nothing is lost.
@@ -276,7 +248,7 @@ mod tests {
         };
         for across in [product(0, 2, 0, 3), product(2, 0, 3, 0)] {
             let row = Row::new(vec![across, product(1, 5, 1, 4)], ZERO, 5);
-            let start = || [entire(), entire(), point(1.0), point(3.0), point(2.0), ZERO];
+            let start = || [ALL, ALL, point(1.0), point(3.0), point(2.0), ZERO];
             let is_free = [true, true, false, false, false, false];
             // The circle about (2, 1) of which the square of the radius is 2.
             let mut x = start();
@@ -293,7 +265,7 @@ mod tests {
         }
         // (x − 1)(3 − x) is at most 1.
         let row = Row::new(vec![product(0, 2, 3, 0)], point(1.5), 5);
-        let mut x = [entire(), entire(), point(1.0), point(3.0), point(2.0), ZERO];
+        let mut x = [ALL, ALL, point(1.0), point(3.0), point(2.0), ZERO];
         let is_free = [true, true, false, false, false, false];
         assert_eq!(contract(&[&row], &is_free, &mut x), Err(Empty));
     }
@@ -315,9 +287,9 @@ mod tests {
         assert!(x[0].contains(2.0) && x[0].inf() > 1.999 && x[0].sup() == 9.0);
         assert!(x[1].contains(6.0 / 9.0) && x[1].inf() > 0.66);
         // Neither factor may be 0.
-        let mut x = vec![ZERO, entire(), ZERO];
+        let mut x = vec![ZERO, ALL, ZERO];
         assert_eq!(contract(&[&row], &[true, true, false], &mut x), Err(Empty));
-        let mut x = vec![entire(), entire(), ZERO];
+        let mut x = vec![ALL, ALL, ZERO];
         contract(&[&row], &[true, true, false], &mut x).unwrap();
         assert!(x[0].is_entire() && x[1].is_entire());
     }

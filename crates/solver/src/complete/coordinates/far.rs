@@ -5,75 +5,27 @@
 //! linear in the unbounded unknowns are solved by elimination in intervals: for every zero in the box the exact numbers are in them, so
 //! that every row that is left holds, too.
 
-use super::contract::Empty;
+use super::expanded::expanded;
 use super::system::Row;
-use crate::elimination::clear;
-use crate::interval::{Interval, ZERO};
-
-/// A row as Σ factors · unbounded unknowns + constant = 0, the constant being last, if it is linear in these and all else in it is bounded.
-fn linear(row: &Row, unbounded: &[usize], x: &[Interval]) -> Option<Vec<Interval>> {
-    let place = |entry: usize| unbounded.iter().position(|&u| u == entry);
-    if !row.entries.iter().any(|&e| place(e).is_some()) {
-        return None;
-    }
-    let n = unbounded.len();
-    let mut out = vec![ZERO; n + 1];
-    out[n] = -row.right;
-    for p in &row.products {
-        let parts = p.expand(|entry| place(entry).ok_or(x[entry]));
-        if !parts.products.is_empty() {
-            return None;
-        }
-        for (k, by) in parts.linear {
-            out[k] += p.factor * by;
-        }
-        out[n] += p.factor * parts.constant;
-    }
-    out.iter().all(|x| x.is_common_interval()).then_some(out)
-}
-
-/// How certain it is that an unknown stands in a row, beside all others.
-fn share(factors: &[Interval], k: usize) -> f64 {
-    let all: f64 = factors.iter().map(|x| x.mag()).sum();
-    match all > 0.0 {
-        true => factors[k].mig() / all,
-        false => 0.0,
-    }
-}
+use crate::certificate::cover::coordinates::{Empty, bounds};
+use crate::interval::Interval;
 
 /// Bounds the free entries that are unbounded by the rows that are linear in them. Tells whether any of them is bounded now.
 pub fn far(rows: &[&Row], is_free: &[bool], x: &mut [Interval]) -> Result<bool, Empty> {
     let unbounded = (0..x.len()).filter(|&e| is_free[e] && !x[e].is_common_interval());
     let unbounded: Vec<usize> = unbounded.collect();
-    let n = unbounded.len();
-    let linear = rows.iter().filter_map(|row| linear(row, &unbounded, x));
-    let mut linear: Vec<Vec<Interval>> = linear.collect();
-    // For each row the unknown that it is solved for.
-    let mut solved: Vec<Option<usize>> = vec![None; linear.len()];
-    let mut is_open = vec![true; n];
-    loop {
-        let pairs = (0..linear.len())
-            .filter(|&e| solved[e].is_none())
-            .flat_map(|e| (0..n).map(move |k| (e, k)));
-        let pairs = pairs.filter(|&(_, k)| is_open[k]);
-        let best = pairs
-            .map(|(e, k)| (share(&linear[e][..n], k), e, k))
-            .filter(|(share, ..)| *share > 0.0)
-            .max_by(|a, b| a.0.total_cmp(&b.0));
-        let Some((_, pivot, k)) = best else { break };
-        solved[pivot] = Some(k);
-        is_open[k] = false;
-        clear(&mut linear, pivot, k);
-    }
+    let of = |entry: usize| {
+        let place = unbounded.iter().position(|&u| u == entry);
+        place.ok_or(x[entry])
+    };
+    let is_about = |row: &&&Row| row.entries.iter().any(|&e| of(e).is_ok());
+    let rows = rows.iter().filter(is_about);
+    let rows = rows.filter_map(|row| expanded(row, unbounded.len(), of));
+    let found = bounds::far(rows, unbounded.len());
     let mut is_better = false;
-    for (row, k) in linear.iter().zip(&solved) {
-        let Some(k) = *k else { continue };
-        let mut others = row[..n].iter().enumerate().filter(|(j, _)| *j != k);
-        if !others.all(|(_, factor)| *factor == ZERO) {
-            continue;
-        }
+    for (k, range) in found {
         let entry = unbounded[k];
-        let new = x[entry].intersection(-(row[n] / row[k]));
+        let new = x[entry].intersection(range);
         if new.is_empty() {
             return Err(Empty);
         }
@@ -85,10 +37,9 @@ pub fn far(rows: &[&Row], is_free: &[bool], x: &mut [Interval]) -> Result<bool, 
 
 #[cfg(test)]
 mod tests {
-    use super::super::contract::{entire, upper_half};
     use super::super::system::{Form, Product};
     use super::*;
-    use crate::interval::{hull, point};
+    use crate::interval::{ZERO, hull, point, upper_half};
 
     /// (x, y) + L u = (0, 0) and (x, y) + M v = (1, 0) in the entries x, y, L, M, u, v, 0, 1.
     fn corner(u: [f64; 2], v: [f64; 2], wide: f64) -> (Vec<Row>, Vec<Interval>) {
@@ -109,7 +60,12 @@ mod tests {
                 rows.push(Row::new(products, point(place[axis]), ZERO_ENTRY));
             }
         }
-        let mut x = vec![entire(), entire(), upper_half(), upper_half()];
+        let mut x = vec![
+            Interval::ENTIRE,
+            Interval::ENTIRE,
+            upper_half(),
+            upper_half(),
+        ];
         x.extend(
             [u, v]
                 .into_iter()

@@ -19,7 +19,6 @@ mod bound;
 mod construction;
 mod contract;
 mod cover;
-mod divided;
 mod expanded;
 mod far;
 mod independent;
@@ -44,7 +43,7 @@ use super::targets::Targets;
 use super::{Complete, Constructed, Options, Part, Status, Unserved, Why, emptiness};
 use crate::blocks::{Block as Cut, Blocks, LeftOut};
 use crate::certificate::cover::coordinates::{Body, Half};
-use crate::interval::{Interval, ZERO, hull, point};
+use crate::interval::{Interval, ZERO, hull, point, upper_half};
 use crate::order::InOrder;
 use crate::places::Each as _;
 use crate::problem::Problem;
@@ -52,7 +51,7 @@ use crate::system::told::{self, Told};
 use crate::system::{GaugeError, Homotopy, typical_length};
 use crate::track::certified::{Relation, prove_figure};
 use crate::track::{FigureBox, Solution};
-use contract::{contract, entire, upper_half};
+use contract::contract;
 use independent::Parts;
 use kept::Kept;
 use poses::Poses;
@@ -155,10 +154,10 @@ fn searched(
         return Ok(result);
     }
     let m = system.unknowns;
-    let mut x = vec![entire(); m + 1];
+    let mut x = vec![Interval::ENTIRE; m + 1];
     x[m] = ZERO;
     let blocks = blocks(&system);
-    let halves = symmetry::halves(problem, (homotopy, &signs), &system, &blocks);
+    let halves = symmetry::halves(problem, (homotopy, &signs), &blocks);
     let pivots: Vec<usize> = halves.iter().map(|half| half.unknown).collect();
     for i in pivots.iter().copied().chain(homotopy.positive_unknowns()) {
         x[i] = upper_half();

@@ -1,7 +1,7 @@
 //! The equations of a block together: what their linear combinations leave of a box, and Krawczyk's test.
 
-use super::contract::Empty;
 use super::system::Row;
+use crate::certificate::cover::coordinates::Empty;
 use crate::complete::krawczyk::alone;
 use crate::elimination::invert;
 use crate::interval::rounding::{largest, round_up};

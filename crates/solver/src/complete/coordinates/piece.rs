@@ -1,13 +1,14 @@
 //! A part of a search that goes on by itself, and how one of its parts is looked at.
 
 use super::construction::{Leaf, Order, Walked, walk};
-use super::contract::{Empty, contract, contract_near};
+use super::contract::{contract, contract_near};
 use super::far::far;
 use super::search::{Block, Choice, Run};
 use super::system::{Row, relative_width};
 use super::tally::Tally;
+use crate::certificate::cover::coordinates::Empty;
 use crate::complete::Why;
-use crate::interval::Interval;
+use crate::interval::{Interval, halves};
 
 /// The rows that narrow parts, the block's equations and sums of these among them, and in which order its unknowns are constructed,
 /// if they are.
@@ -254,37 +255,5 @@ impl<'s, 'a> Piece<'s, 'a> {
             return Err(Empty);
         }
         Ok(self.block.volume(x) <= before - WORTH)
-    }
-}
-
-/// Two ranges that share a border and together are the range.
-fn halves(x: Interval) -> Option<[Interval; 2]> {
-    use crate::interval::checked;
-    let middle = match (x.inf().is_finite(), x.sup().is_finite()) {
-        (true, true) => x.mid(),
-        (true, false) => (2.0 * x.inf()).max(1.0),
-        (false, true) => (2.0 * x.sup()).min(-1.0),
-        (false, false) => 0.0,
-    };
-    if !(x.inf() < middle && middle < x.sup()) {
-        return None;
-    }
-    Some([checked(x.inf(), middle)?, checked(middle, x.sup())?])
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::interval::hull;
-
-    #[test]
-    fn halves_leave_nothing_out() {
-        use super::super::contract::{entire, upper_half};
-        for x in [entire(), upper_half(), hull(-1.0, 3.0), -upper_half()] {
-            let [low, high] = halves(x).unwrap();
-            assert_eq!(low.sup(), high.inf());
-            assert_eq!(low.convex_hull(high), x);
-        }
-        assert!(halves(hull(1.0, 1.0f64.next_up())).is_none());
     }
 }

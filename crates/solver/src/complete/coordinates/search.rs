@@ -7,12 +7,12 @@
 
 use super::bound::bounds;
 use super::construction::Order;
-use super::contract::Empty;
 use super::kept::{Kept, digest};
 use super::newton::{KNOWN, Square, Zero};
 use super::piece::{How, Node, Piece};
 use super::sums::sums;
 use super::system::{Row, System, relative_width, volume};
+use crate::certificate::cover::coordinates::Empty;
 use crate::complete::search::Run as Watched;
 use crate::complete::{Constructed, Part, Why};
 use crate::interval::Interval;

@@ -20,7 +20,7 @@ use std::sync::atomic::Ordering;
 pub const MOST: usize = 60;
 
 /// A row that says what a flat equation says. `zero`: the entry that is the number 0.
-fn row(flat: &Flat, zero: usize) -> Row {
+pub fn row(flat: &Flat, zero: usize) -> Row {
     let value = |u: usize| Form::Difference(u, zero);
     let terms = flat.terms.iter().map(|&(factor, u, v)| Product {
         factor,

@@ -1,11 +1,12 @@
 //! The equations of a problem with its dimensions, as the search over coordinates sees them.
 
+use crate::certificate::cover::coordinates::Shared;
 use crate::equations;
 use crate::interval::{Interval, ZERO, point};
 use crate::order::each_once;
 use crate::places::Each as _;
 use crate::sets::Joined;
-use crate::system::Homotopy;
+use crate::system::{Homotopy, Term};
 
 /// A difference of two entries, or the number 1.
 pub type Form = equations::Form<usize>;
@@ -94,59 +95,18 @@ pub fn product(p: &Product, at: &[Interval]) -> Interval {
         return p.left.value(|entry| at[entry]).sqr();
     }
     let product = p.value(|entry| at[entry]);
-    match Shared::of(p, at) {
+    match shared(p, at) {
         None => product,
         Some(shared) => product.intersection(shared.product(at)),
     }
 }
 
-/// An entry x in both factors, which are ±(x − a) and ±(x − b): (x − a)(x − b) = (x − (a + b)/2)² − ((a − b)/2)².
-///
-/// A right angle at a point that is sought has such products. However wide the range of x is, the square is not negative, which the product
-/// of two ranges does not know.
-pub struct Shared {
-    /// x.
-    pub entry: usize,
-    /// (a + b)/2.
-    pub middle: Interval,
-    /// ((a − b)/2)².
-    less: Interval,
-    /// Whether one factor is x − a and the other b − x.
-    is_opposite: bool,
-}
-
-impl Shared {
-    /// `None`: there is none, or it is known.
-    pub fn of(p: &Product, at: &[Interval]) -> Option<Self> {
-        let (Form::Difference(i, j), Form::Difference(k, l)) = (p.left, p.right) else {
-            return None;
-        };
-        let (entry, [a, b], is_opposite) = match () {
-            () if i == k => (i, [j, l], false),
-            () if j == l => (j, [i, k], false),
-            () if i == l => (i, [j, k], true),
-            () if j == k => (j, [i, l], true),
-            () => return None,
-        };
-        let half = point(0.5);
-        (at[entry].wid() > 0.0).then(|| Shared {
-            entry,
-            middle: half * (at[a] + at[b]),
-            less: (half * (at[a] - at[b])).sqr(),
-            is_opposite,
-        })
-    }
-
-    /// The product of the factors.
-    fn product(&self, at: &[Interval]) -> Interval {
-        let product = (at[self.entry] - self.middle).sqr() - self.less;
-        if self.is_opposite { -product } else { product }
-    }
-
-    /// (x − (a + b)/2)², if the product of the factors is in a range.
-    pub fn square(&self, product: Interval) -> Interval {
-        self.less + if self.is_opposite { -product } else { product }
-    }
+/// An entry that both factors have in common. `None`: there is none, or it is known.
+pub fn shared(p: &Product, at: &[Interval]) -> Option<Shared> {
+    let (Form::Difference(i, j), Form::Difference(k, l)) = (p.left, p.right) else {
+        return None;
+    };
+    Shared::of([i, j], [k, l]).filter(|shared| at[shared.x].wid() > 0.0)
 }
 
 /// The logarithm of the product of the widths of some entries' ranges.
@@ -164,17 +124,19 @@ impl System {
     /// The equations of a homotopy with t = 1.
     pub fn new(homotopy: &Homotopy) -> Self {
         let m = homotopy.equations;
-        let row = |e: usize| {
-            let terms = homotopy.terms(e).into_iter();
-            let products = terms.map(|term| {
+        let row = |terms: Vec<Term>, right: Interval| {
+            let products = terms.into_iter().map(|term| {
                 let [left, right] = term.forms().each(|form| form.map(|i| i.unwrap_or(m)));
                 Product::new(point(0.5 * f64::from(term.factor)), left, right)
             });
-            Row::new(products.collect(), homotopy.rights[e].at_target(), m)
+            Row::new(products.collect(), right, m)
         };
+        let equations = (0..m).map(|e| row(homotopy.terms(e), homotopy.rights[e].at_target()));
+        let follow = homotopy.rows_in_figures().into_iter();
+        let rows = equations.chain(follow.map(|terms| row(terms, ZERO)));
         let mut system = System {
             unknowns: m,
-            rows: (0..m).map(row).collect(),
+            rows: rows.collect(),
             positive: homotopy.positive_unknowns(),
             nonzero: homotopy.nonzero_vectors(),
         };
@@ -182,9 +144,6 @@ impl System {
         for ends in system.nonzero.iter_mut().flatten() {
             *ends = ends.each(|end| names[end.min(m)]);
         }
-        let mut follow = system.cross_products();
-        follow.extend(system.divided(homotopy));
-        system.rows.extend(follow);
         system
     }
 
@@ -205,44 +164,6 @@ impl System {
             }
         }
         (0..=zero).map(|entry| sets.of(entry)).collect()
-    }
-
-    /// (k, v, u), if a row says v − k u = 0.
-    pub(super) fn parallel(&self, row: &Row) -> Option<(usize, Form, Form)> {
-        let zero = self.unknowns;
-        let single = |form: Form| match form {
-            Form::Difference(k, z) if z == zero && k != zero => Some(k),
-            _ => None,
-        };
-        let [one, other] = row.products.as_slice() else {
-            return None;
-        };
-        if row.right != ZERO || one.right != Form::One || other.factor != -one.factor {
-            return None;
-        }
-        Some((single(other.left)?, one.left, other.right))
-    }
-
-    /// From v_i = k u_i and v_j = k u_j follows v_i u_j = v_j u_i, which says something where k is not known: vectors that
-    /// are parallel.
-    fn cross_products(&self) -> Vec<Row> {
-        let zero = self.unknowns;
-        let found: Vec<_> = self
-            .rows
-            .iter()
-            .filter_map(|row| self.parallel(row))
-            .collect();
-        let mut out = Vec::new();
-        for (i, &(k, v, u)) in found.iter().enumerate() {
-            for &(_, w, x) in found[..i].iter().filter(|other| other.0 == k) {
-                let products = [(1.0, v, x), (-1.0, w, u)];
-                let products =
-                    products.each(|(f, left, right)| Product::new(point(f), left, right));
-                let products = products.to_vec();
-                out.push(Row::new(products, ZERO, zero));
-            }
-        }
-        out
     }
 
     /// Adds bounds of the squared distance of two points, given by the entries of their coordinates.

@@ -4,31 +4,21 @@
 //! joins S and O, where the fixed triangle is), on what [`Split::new`] finds exactly, on the equations ([`system`]) with the proof of their
 //! zero, and on [`is_regular`].
 
+use super::Graph;
 use super::split::{Parts, Split, parts};
-use super::{Edge, Graph};
+use crate::certificate::complex::infinity::{LAMBDA, NU, Part, SIGMA, rows, unknown};
 use crate::complex::boxes::SolutionBox;
 use crate::complex::ends::EndProver;
 use crate::complex::exact::Exact;
 use crate::complex::system::{Equation, Kind, Start, System, Unknown, segment};
 use crate::complex::vector::{Z, cross, dot, minus, plus};
-use crate::equations::Form;
 use crate::interval::complex::Number;
 use crate::interval::{DoubleDouble, Interval, enclose_rational, point};
 use crate::order::InOrder;
 use crate::rational::Rational;
-use crate::system::Term;
 
 /// A point belongs to those that go where it is so much farther than the next nearer one, in typical lengths.
 const GAP: f64 = 1e3;
-
-/// Unknowns of a point: Λ or λ, ν, τ or σ.
-const LAMBDA: usize = 0;
-const NU: usize = 1;
-const SIGMA: usize = 2;
-
-fn unknown(point: usize, which: usize) -> usize {
-    3 * point + which
-}
 
 /// Finds how the points go of which these are the places shortly before, and a box around the figure at infinity.
 pub fn prove(graph: &Graph, last: &[[Z; 3]]) -> Option<(Split, SolutionBox)> {
@@ -126,10 +116,8 @@ fn small_root(a: Z, b: Z, c: Z) -> Z {
     -(c * larger.inverse())
 }
 
-/// The equations at ε = 0, of whose terms half the sum is meant, hence their factors of 2. `None`: there are not as many as unknowns.
+/// The equations at ε = 0. `None`: there are not as many as unknowns.
 fn system(graph: &Graph, split: &Split) -> Option<System> {
-    let count = 3 * graph.points;
-    let is_in = |part: &[usize], p: usize| part.contains(&p);
     let names =
         |p: usize| ["lambda", "nu", "sigma"].map(|which| format!("{which} of point {}", p + 1));
     let unknowns = (0..graph.points).flat_map(names).map(|name| Unknown {
@@ -137,72 +125,32 @@ fn system(graph: &Graph, split: &Split) -> Option<System> {
         power: 0,
         flips: [false; 3],
     });
-    let mut equations = Vec::with_capacity(count);
-    let mut push = |terms: Vec<Term>, value: Rational| {
-        equations.push(Equation {
-            name: String::new(),
-            terms,
-            power: 0,
-            right: Kind::Fixed(Exact {
-                re: value,
-                im: Rational::zero(),
-            }),
-            bows: false,
-        });
+    let part = |p: usize| match split.inside.contains(&p) {
+        true => Part::Goes,
+        false if split.link.contains(&p) => Part::Link,
+        false => Part::Stays,
     };
-    let product = |left, right| Term::new(2, left, right);
-    for Edge {
-        points, squared, ..
-    } in &graph.edges
-    {
-        let [a, b] = *points;
-        let both =
-            |which: usize| Form::Difference(Some(unknown(a, which)), Some(unknown(b, which)));
-        if is_in(&split.link, a) && is_in(&split.link, b) {
-            continue;
-        }
-        // λ stands for nothing in L beside S, σ for nothing in L beside O.
-        let only = |which: usize, part: &[usize]| {
-            let entry = |p: usize| is_in(part, p).then(|| unknown(p, which));
-            Form::Difference(entry(a), entry(b))
-        };
-        let at_link = is_in(&split.link, a) || is_in(&split.link, b);
-        let goes = is_in(&split.inside, a) || is_in(&split.inside, b);
-        let lambda = if at_link && goes {
-            only(LAMBDA, &split.inside)
-        } else {
-            both(LAMBDA)
-        };
-        let sigma = if at_link && !goes {
-            only(SIGMA, &split.outside)
-        } else {
-            both(SIGMA)
-        };
-        let heights = product(both(NU), both(NU));
-        push(vec![heights, product(lambda, sigma)], squared.clone());
-    }
-    let (origin, near, away) = (split.link[0], split.outside[0], split.inside[0]);
-    let whole = |value: i64| Rational::from_integer(value.into());
-    let mut values: Vec<(usize, Rational)> = vec![
-        (unknown(origin, LAMBDA), whole(0)),
-        (unknown(origin, SIGMA), whole(0)),
-        (unknown(near, NU), whole(0)),
-        (unknown(near, SIGMA), whole(1)),
-        (unknown(away, NU), whole(0)),
-        (unknown(away, LAMBDA), whole(1)),
-    ];
-    let heights = split.link.iter().zip(&split.heights);
-    values.extend(heights.map(|(&p, height)| (unknown(p, NU), height.clone())));
-    for (unknown, value) in values {
-        push(
-            vec![product(Form::Difference(Some(unknown), None), Form::One)],
-            value,
-        );
-    }
+    let (edges, heights) = (graph.edges.iter(), split.link.iter().zip(&split.heights));
+    let rows = rows(
+        edges.map(|edge| (edge.points, edge.squared.clone())),
+        part,
+        heights.map(|(&p, height)| (p, height.clone())),
+        [split.link[0], split.outside[0], split.inside[0]],
+    );
+    let equation = |(terms, value)| Equation {
+        name: String::new(),
+        terms,
+        power: 0,
+        right: Kind::Fixed(Exact {
+            re: value,
+            im: Rational::zero(),
+        }),
+        bows: false,
+    };
     let system = System {
         dimension: 3,
         unknowns: unknowns.collect(),
-        equations,
+        equations: rows.into_iter().map(equation).collect(),
         points: Vec::new(),
         unit: 1.0,
         group: Vec::new(),
@@ -213,7 +161,7 @@ fn system(graph: &Graph, split: &Split) -> Option<System> {
         gauge: String::new(),
         nonzero: Vec::new(),
     };
-    (system.equations.len() == count).then_some(system)
+    (system.equations.len() == system.unknowns.len()).then_some(system)
 }
 
 /// Whether Λ is not zero where points go, nor σ where they stay, and the sum around the cycle is not zero either.

@@ -93,7 +93,7 @@ impl Graph {
             let squared = distance.target.squared() * &per_square;
             Edge {
                 points: distance.points,
-                length: root(&squared),
+                length: squared.sqrt(),
                 squared,
             }
         };
@@ -140,16 +140,4 @@ pub(super) fn enter(
     if figures.find(&figure, &[nothing], false) == Found::New {
         figures.push(figure);
     }
-}
-
-/// A number's square root, if that is a ratio.
-fn root(squared: &Rational) -> Option<Rational> {
-    let root = |x: &num_bigint::BigInt| {
-        let near = x.sqrt();
-        (&near * &near == *x).then_some(near)
-    };
-    Some(Rational::new(
-        root(squared.numer())?,
-        root(squared.denom())?,
-    ))
 }

@@ -4,9 +4,8 @@
 //! equations that come of it, x_k = α_k + β_k t, any equation is a t² + b t + c = 0; if a is not 0 then
 //! |t| ≤ (|b| + √(b² + 4 |a c|)) / (2 |a|).
 
-use super::space::difference;
-use crate::certificate::checker::equations::{Equations, Product, ZERO};
-use crate::interval::{Interval, checked, point};
+use super::space::{Product, difference};
+use crate::interval::{Interval, ZERO, checked, point};
 use crate::system::told::Flat;
 use std::collections::BTreeMap;
 
@@ -27,7 +26,6 @@ pub struct Expanded {
 impl Expanded {
     /// Σ products = right, all entries that are not unknowns of the block being numbers in their ranges.
     pub fn new(
-        eq: &Equations,
         (products, right): (&[Product], Interval),
         unknowns: &[usize],
         x: &[Interval],
@@ -38,8 +36,7 @@ impl Expanded {
             constant: -right,
         };
         // The unknowns in a form, with their signs, and the rest of it.
-        let split = |form: usize| {
-            let [i, j] = eq.forms[form];
+        let split = |[i, j]: [usize; 2]| {
             let own = |entry: usize| unknowns.iter().position(|&u| u == entry);
             let rest = match (i == j, own(i), own(j)) {
                 (true, ..) => return (Vec::new(), ZERO),
@@ -132,7 +129,7 @@ impl Expanded {
     }
 
     /// The greatest |t| if all unknowns are α + β t.
-    fn greatest(&self, lines: &[[Interval; 2]]) -> Option<f64> {
+    pub fn greatest(&self, lines: &[[Interval; 2]]) -> Option<f64> {
         let (mut a, mut b, mut c) = (ZERO, ZERO, self.constant);
         for (&(k, l), &q) in &self.squares {
             let (q, [alpha, beta], [gamma, delta]) = (point(q as f64), lines[k], lines[l]);
@@ -162,9 +159,12 @@ impl Expanded {
 }
 
 /// Takes an unknown out of all rows but one, by multiples of that one (Gauss and Jordan, in intervals).
-fn eliminate(rows: &mut [Expanded], one: usize, unknown: usize) {
+pub fn eliminate(rows: &mut [Expanded], one: usize, unknown: usize) {
     let pivot = rows[one].clone();
-    for (_, row) in rows.iter_mut().enumerate().filter(|(j, _)| *j != one) {
+    for (j, row) in rows.iter_mut().enumerate() {
+        if j == one || row.linear[unknown] == ZERO {
+            continue;
+        }
         let by = row.linear[unknown] / pivot.linear[unknown];
         let pairs = row.linear.iter_mut().zip(&pivot.linear);
         pairs.for_each(|(x, y)| *x -= by * *y);
@@ -209,9 +209,8 @@ pub fn far(rows: impl Iterator<Item = Expanded>, n: usize) -> Vec<(usize, Interv
     found.collect()
 }
 
-/// Ranges that hold the n unknowns of a block at every zero of its equations in a part. `None`: nothing follows.
-pub fn bounds(rows: &[Expanded], n: usize) -> Option<Vec<Interval>> {
-    // What is linear, and what is not.
+/// The linear equations that come of these by adding whole multiples of others.
+pub fn without_products(rows: &[Expanded]) -> Option<Vec<Expanded>> {
     let (mut linear, mut curved): (Vec<Expanded>, Vec<Expanded>) = (Vec::new(), Vec::new());
     for row in rows {
         let mut row = row.clone();
@@ -226,6 +225,12 @@ pub fn bounds(rows: &[Expanded], n: usize) -> Option<Vec<Interval>> {
             false => curved.push(row),
         }
     }
+    Some(linear)
+}
+
+/// Ranges that hold the n unknowns of a block at every zero of its equations in a part. `None`: nothing follows.
+pub fn bounds(rows: &[Expanded], n: usize) -> Option<Vec<Interval>> {
+    let mut linear = without_products(rows)?;
     linear.truncate(n);
     if linear.len() + 1 < n {
         return None;

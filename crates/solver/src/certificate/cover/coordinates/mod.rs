@@ -5,13 +5,12 @@
 //! ([`symmetry`]). A part's ranges are narrowed without losing any zero ([`space`]), parts are halved, and one that is left is within
 //! the distance around a listed zero in which certificates' test for one figure proves that there is no other.
 
-mod bounds;
-mod divided;
+pub mod bounds;
 mod format;
 mod independent;
 mod shared;
 mod space;
-mod sums;
+pub mod sums;
 mod symmetry;
 mod turns;
 
@@ -19,8 +18,9 @@ pub use format::{
     Block, Body, Case, Change, CoordinateCover, Half, Image, Independent, Mark, Turned,
 };
 pub use independent::Slice;
-pub use space::{Empty, Part};
-pub use symmetry::signs_changed;
+pub use shared::Shared;
+pub use space::{Empty, Part, ROUNDS};
+pub use symmetry::{changes, signs_changed};
 pub use turns::{Look, Turn};
 
 use super::{CoverError, CoverStage, CoverVerdict, ENDED};
@@ -74,7 +74,7 @@ impl Space {
             format!("in which direction {name} is fixed is not certain")
         })?;
         let allowed = constraint::symmetry(problem);
-        let not_negative = symmetry::not_negative(&eq, (allowed, &signs), &cover.halves)?;
+        let not_negative = symmetry::not_negative(&eq.homotopy, (allowed, &signs), &cover.halves)?;
         for block in &cover.blocks {
             let fits = |numbers: &[usize]| {
                 let mut sorted = numbers.to_vec();
@@ -112,9 +112,7 @@ impl Space {
         };
         let whole = space.whole();
         let sums = space.blocks.iter();
-        space.sums = sums
-            .map(|block| space.rows.sums(&space.eq, block, &whole))
-            .collect();
+        space.sums = sums.map(|block| space.rows.sums(block, &whole)).collect();
         for (index, near) in cover.figures.iter().enumerate() {
             let number = index + 1;
             let place = space.zero(near).filter(|place| space.is_figure(place));
@@ -204,7 +202,7 @@ impl Space {
     pub fn narrow(&self, part: &mut Part) -> Result<(), Empty> {
         for _ in 0..MOVED {
             self.apart.narrow(part, &self.figures)?;
-            self.rows.narrow(&self.eq, part)?;
+            self.rows.narrow(part)?;
         }
         Ok(())
     }
@@ -238,7 +236,7 @@ impl Space {
     pub fn bound(&self, block: usize, part: &mut Part) -> Result<(), Empty> {
         self.add_up(block, part)?;
         if let (Some(block), Some(sums)) = (self.blocks.get(block), self.sums.get(block)) {
-            self.rows.bound(&self.eq, (block, sums), part)?;
+            self.rows.bound((block, sums), part)?;
         }
         self.narrow(part)
     }
@@ -246,7 +244,7 @@ impl Space {
     /// Narrows a part by sums of two of a block's equations, and one by one.
     fn add_up(&self, block: usize, part: &mut Part) -> Result<(), Empty> {
         match (self.blocks.get(block), self.sums.get(block)) {
-            (Some(block), Some(sums)) => self.rows.add_up(&self.eq, (block, sums), part),
+            (Some(block), Some(sums)) => self.rows.add_up((block, sums), part),
             _ => Ok(()),
         }
     }
@@ -295,7 +293,7 @@ impl Space {
 
     /// The solution that a change of signs takes the zero in a part to, if it is one.
     pub fn image_in(&self, by: &Change, part: &Part) -> Option<Image> {
-        let changes = symmetry::changes(&self.eq, (self.allowed, &self.signs), by)?;
+        let changes = changes(&self.eq.homotopy, (self.allowed, &self.signs), by)?;
         let mut seen = Seen { figure: 0, changes };
         let figure = (0..self.figures.len()).find(|&figure| {
             seen.figure = figure;
@@ -310,7 +308,7 @@ impl Space {
         if image.figure >= self.figures.len() {
             return Err("an image is said to be of a solution that is not listed".to_owned());
         }
-        let changes = symmetry::changes(&self.eq, (self.allowed, &self.signs), &image.by);
+        let changes = changes(&self.eq.homotopy, (self.allowed, &self.signs), &image.by);
         let unlike = || {
             format!(
                 "what is called an image of solution {} is not so by a symmetry of the problem",

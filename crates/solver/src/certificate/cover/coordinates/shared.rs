@@ -4,8 +4,12 @@ use super::space::{Empty, Part, difference, roots};
 use crate::interval::{Interval, point};
 
 /// ±(x − a)(x − b).
+///
+/// A right angle at a point that is sought has such products. However wide the range of x is, the square is not negative, which the product
+/// of two ranges does not know.
 pub struct Shared {
-    x: usize,
+    /// x.
+    pub x: usize,
     rest: [usize; 2],
     is_opposite: bool,
 }
@@ -31,24 +35,32 @@ impl Shared {
         if self.is_opposite { -x } else { x }
     }
 
-    /// m and h².
-    fn middle(&self, x: &[Interval]) -> [Interval; 2] {
+    /// m.
+    pub fn middle(&self, x: &[Interval]) -> Interval {
         let [a, b] = self.rest;
-        let half = point(0.5);
-        [half * (x[a] + x[b]), (half * difference(x, [a, b])).sqr()]
+        point(0.5) * (x[a] + x[b])
+    }
+
+    /// h².
+    fn less(&self, x: &[Interval]) -> Interval {
+        (point(0.5) * difference(x, self.rest)).sqr()
     }
 
     /// The product.
     pub fn product(&self, x: &[Interval]) -> Interval {
-        let [middle, less] = self.middle(x);
-        self.signed((x[self.x] - middle).sqr() - less)
+        self.signed((x[self.x] - self.middle(x)).sqr() - self.less(x))
+    }
+
+    /// (x − m)², if the product is in a range.
+    pub fn square(&self, product: Interval, x: &[Interval]) -> Interval {
+        self.signed(product) + self.less(x)
     }
 
     /// Narrows by the product in a range.
     pub fn narrow(&self, product: Interval, part: &mut Part) -> Result<(), Empty> {
-        let [middle, less] = self.middle(part.entries());
-        let square = self.signed(product) + less;
-        let within = roots(square, part.entries()[self.x] - middle)?;
+        let x = part.entries();
+        let (square, middle) = (self.square(product, x), self.middle(x));
+        let within = roots(square, x[self.x] - middle)?;
         match self.x < part.ranges().len() {
             true => part.narrow(self.x, middle + within),
             false => Ok(()),

@@ -4,20 +4,18 @@
 //! figures have, so that a part in which a range becomes empty has no figure.
 
 use super::bounds::{Expanded, bounds, far};
-use super::divided::{Component, divided};
 use super::format::Block;
 use super::shared::Shared;
 use super::sums::{self, Sum};
-use crate::certificate::checker::equations::{Equations, Product, ZERO};
+use crate::certificate::checker::equations::{Equations, ZERO, ends};
 use crate::certificate::checker::guess::invert;
-use crate::interval::{Interval, checked, point};
+use crate::interval::{Interval, checked, halves, is_narrower, point, upper_half};
+use crate::system::Term;
 use crate::system::told::{self, Flat, Side, Told, View};
 use std::rc::Rc;
 
-/// A range counts as changed where it became narrower by this part of it. (No zero is lost whatever this number is.)
-const ENOUGH: f64 = 0.05;
-/// How often all equations are gone through at most.
-const ROUNDS: usize = 12;
+/// How often all equations are gone through at most. (No zero is lost whatever this number is.)
+pub const ROUNDS: usize = 12;
 
 /// How often sums of equations are gone through. (No zero is lost whatever this number is.)
 const SUMMED: usize = 2;
@@ -55,6 +53,9 @@ impl Exact {
     }
 }
 
+/// A factor, and the two differences of entries that it multiplies: the number 1 is that of it and 0.
+pub type Product = (i64, [[usize; 2]; 2]);
+
 /// Σ products = right.
 struct Row {
     products: Vec<Product>,
@@ -69,20 +70,10 @@ pub struct Rows {
     rows: Vec<Row>,
 }
 
-/// All numbers.
-fn entire() -> Interval {
-    checked(f64::NEG_INFINITY, f64::INFINITY).expect("an interval")
-}
-
-/// All numbers that are not negative.
-fn upper_half() -> Interval {
-    checked(0.0, f64::INFINITY).expect("an interval")
-}
-
 impl Part {
     /// All of the space where some unknowns are not negative, or with `true` not positive.
     pub fn whole(eq: &Equations, signs: impl Iterator<Item = (usize, bool)>) -> Part {
-        let mut x = vec![entire(); eq.m];
+        let mut x = vec![Interval::ENTIRE; eq.m];
         for (i, negative) in signs {
             let half = upper_half();
             x[i] = if negative { -half } else { half };
@@ -169,26 +160,13 @@ impl Part {
 
     /// The part with an unknown in the lower and in the upper half of its range, which share a border.
     pub fn halved(&self, unknown: usize) -> Option<[Part; 2]> {
-        let x = *self.ranges().get(unknown)?;
-        let middle = match (x.inf().is_finite(), x.sup().is_finite()) {
-            (true, true) => x.mid(),
-            (true, false) => (2.0 * x.inf()).max(1.0),
-            (false, true) => (2.0 * x.sup()).min(-1.0),
-            (false, false) => 0.0,
-        };
-        if !(x.inf() < middle && middle < x.sup()) {
-            return None;
-        }
         let with = |range| {
             let mut part = self.clone();
             part.x[unknown] = range;
             part.fresh[unknown] = true;
             part
         };
-        Some([
-            with(checked(x.inf(), middle)?),
-            with(checked(middle, x.sup())?),
-        ])
+        Some(halves(*self.ranges().get(unknown)?)?.map(with))
     }
 
     /// Narrows one range to what it has in common with another one.
@@ -198,15 +176,7 @@ impl Part {
         if new.is_empty() {
             return Err(Empty);
         }
-        let is_worth = match (old.wid().is_finite(), new.wid().is_finite()) {
-            (true, _) => new.wid() < (1.0 - ENOUGH) * old.wid(),
-            (false, true) => true,
-            // A bound that is new, or moved well.
-            (false, false) => [(old.inf(), new.inf()), (old.sup(), new.sup())]
-                .iter()
-                .any(|&(a, b)| a != b && !(a.is_finite() && (b - a).abs() < 0.5 * a.abs())),
-        };
-        self.fresh[i] |= is_worth;
+        self.fresh[i] |= is_narrower(new, old);
         self.x[i] = new;
         Ok(())
     }
@@ -218,13 +188,13 @@ pub fn difference(x: &[Interval], [i, j]: [usize; 2]) -> Interval {
 }
 
 /// factor · left · right, where each is a difference.
-fn value(eq: &Equations, (factor, [left, right]): Product, x: &[Interval]) -> Interval {
-    let value = difference(x, eq.forms[left]);
+fn value((factor, [left, right]): Product, x: &[Interval]) -> Interval {
+    let value = difference(x, left);
     let product = match left == right {
         true => value.sqr(),
         false => {
-            let product = value * difference(x, eq.forms[right]);
-            match Shared::of(eq.forms[left], eq.forms[right]) {
+            let product = value * difference(x, right);
+            match Shared::of(left, right) {
                 None => product,
                 Some(shared) => product.intersection(shared.product(x)),
             }
@@ -236,10 +206,14 @@ fn value(eq: &Equations, (factor, [left, right]): Product, x: &[Interval]) -> In
 impl Rows {
     /// Of the equations.
     pub fn new(eq: &Equations) -> Rows {
-        let row = |products: Vec<Product>, right| {
-            let forms = products.iter().flat_map(|(_, forms)| forms);
-            let mut unknowns: Vec<usize> = forms.flat_map(|&form| eq.forms[form]).collect();
-            unknowns.retain(|&i| i < eq.m);
+        let row = |terms: Vec<Term>, right| {
+            let products = terms.into_iter().map(|term| {
+                let forms = term.forms().map(|form| ends(form, eq.m));
+                (term.factor.into(), forms)
+            });
+            let products: Vec<Product> = products.collect();
+            let entries = products.iter().flat_map(|product| product.1.as_flattened());
+            let mut unknowns: Vec<usize> = entries.copied().filter(|&i| i < eq.m).collect();
             unknowns.sort_unstable();
             unknowns.dedup();
             Row {
@@ -249,16 +223,11 @@ impl Rows {
             }
         };
         let right = |e: usize| point(2.0) * eq.right_at(e, point(1.0))[0];
-        let own = (0..eq.m).map(|e| row(eq.products[e].clone(), right(e)));
-        let mut rows: Vec<Row> = own.collect();
-        let components = components(eq, &rows);
-        let equations = rows.iter().map(|row| (row.products.as_slice(), row.right));
-        let equations: Vec<_> = equations.collect();
-        let divided = divided(eq, &equations, &components);
-        for products in parallel(&components).into_iter().chain(divided) {
-            rows.push(row(products, ZERO));
+        let own = (0..eq.m).map(|e| row(eq.homotopy.terms(e), right(e)));
+        let follow = eq.homotopy.rows_in_figures().into_iter();
+        Rows {
+            rows: own.chain(follow.map(|terms| row(terms, ZERO))).collect(),
         }
-        Rows { rows }
     }
 
     /// Whether all equations hold for these numbers, reckoned without any rounding.
@@ -268,14 +237,14 @@ impl Rows {
         self.rows[..eq.m].iter().all(|row| {
             let sum = row.products.iter().fold(-row.right, |sum, &product| {
                 // Where a range is one number nothing was rounded.
-                sum + value(eq, product, &x)
+                sum + value(product, &x)
             });
             sum == ZERO
         })
     }
 
     /// Narrows a part by the equations one after the other, again and again while that helps.
-    pub fn narrow(&self, eq: &Equations, part: &mut Part) -> Result<(), Empty> {
+    pub fn narrow(&self, part: &mut Part) -> Result<(), Empty> {
         for _ in 0..ROUNDS {
             let before = std::mem::replace(&mut part.fresh, vec![false; part.x.len()]);
             if !before.contains(&true) {
@@ -283,7 +252,7 @@ impl Rows {
             }
             for row in &self.rows {
                 if row.unknowns.iter().any(|&i| before[i] || part.fresh[i]) {
-                    self.narrow_by(eq, row, part)?;
+                    narrow_by(row, part)?;
                 }
             }
             part.narrow_by_exact()?;
@@ -292,94 +261,43 @@ impl Rows {
         Ok(())
     }
 
-    /// Narrows by one row: factor · L · R = right − rest, and all on the right is in a range.
-    fn narrow_by(&self, eq: &Equations, row: &Row, part: &mut Part) -> Result<(), Empty> {
-        let values: Vec<Interval> = row
-            .products
-            .iter()
-            .map(|&product| value(eq, product, &part.x))
-            .collect();
-        if values
-            .iter()
-            .fold(ZERO, |sum, &x| sum + x)
-            .disjoint(row.right)
-        {
-            return Err(Empty);
-        }
-        // The sums of all products behind each.
-        let mut behind = vec![ZERO; values.len() + 1];
-        for k in (0..values.len()).rev() {
-            behind[k] = behind[k + 1] + values[k];
-        }
-        let mut before = ZERO;
-        for (k, &(factor, [left, right])) in row.products.iter().enumerate() {
-            let rest = before + behind[k + 1];
-            before += values[k];
-            let wanted = (row.right - rest) / point(factor as f64);
-            if left == right {
-                square(eq.forms[left], wanted, part)?;
-                continue;
-            }
-            if let Some(shared) = Shared::of(eq.forms[left], eq.forms[right]) {
-                shared.narrow(wanted, part)?;
-            }
-            for (this, other) in [(left, right), (right, left)] {
-                let by = difference(&part.x, eq.forms[other]);
-                // If 0 may be the product and the other factor, this one may be anything. If 0 is not
-                // the product, it is not the other factor, and the quotient is of all others.
-                if !(by.contains(0.0) && wanted.contains(0.0)) {
-                    narrow_form(eq.forms[this], wanted / by, part)?;
-                }
-            }
-        }
-        Ok(())
-    }
-
     /// The sums of a block's equations that narrow parts beside these.
-    pub fn sums(&self, eq: &Equations, block: &Block, part: &Part) -> Vec<Sum> {
-        sums::choose(&self.expanded(eq, block, part))
+    pub fn sums(&self, block: &Block, part: &Part) -> Vec<Sum> {
+        sums::choose(&self.expanded(block, part))
     }
 
     /// The equations of a block in its unknowns, all other entries being numbers in their ranges.
-    fn expanded(&self, eq: &Equations, block: &Block, part: &Part) -> Vec<Expanded> {
+    fn expanded(&self, block: &Block, part: &Part) -> Vec<Expanded> {
         let expanded = block.equations.iter().map(|&e| {
             let side = part.side(e);
             let side = side.and_then(|flat| Expanded::of(flat, &block.unknowns, part.entries()));
-            side.unwrap_or_else(|| self.whole(eq, e, block, part))
+            side.unwrap_or_else(|| self.whole(e, block, part))
         });
         expanded.collect()
     }
 
     /// An equation on no side.
-    fn whole(&self, eq: &Equations, e: usize, block: &Block, part: &Part) -> Expanded {
+    fn whole(&self, e: usize, block: &Block, part: &Part) -> Expanded {
         let row = (self.rows[e].products.as_slice(), self.rows[e].right);
-        Expanded::new(eq, row, &block.unknowns, part.entries())
+        Expanded::new(row, &block.unknowns, part.entries())
     }
 
     /// Sums of a block's equations, which `sums` says.
-    fn added(&self, eq: &Equations, (block, sums): (&Block, &[Sum]), part: &Part) -> Vec<Flat> {
-        let rows = block
-            .equations
-            .iter()
-            .map(|&e| self.whole(eq, e, block, part));
+    fn added(&self, (block, sums): (&Block, &[Sum]), part: &Part) -> Vec<Flat> {
+        let rows = block.equations.iter().map(|&e| self.whole(e, block, part));
         let rows: Vec<Expanded> = rows.collect();
         let sums = sums.iter().filter_map(|sum| sum.of(&rows));
         sums.map(|sum| sum.flat(&block.unknowns)).collect()
     }
 
     /// Narrows by sums of a block's equations, which `sums` says, and by the equations one by one.
-    pub fn add_up(
-        &self,
-        eq: &Equations,
-        (block, sums): (&Block, &[Sum]),
-        part: &mut Part,
-    ) -> Result<(), Empty> {
-        let sums = self.added(eq, (block, sums), part);
+    pub fn add_up(&self, (block, sums): (&Block, &[Sum]), part: &mut Part) -> Result<(), Empty> {
+        let sums = self.added((block, sums), part);
         for _ in 0..SUMMED {
             for sum in &sums {
                 sums::narrow(sum, part)?;
             }
-            self.narrow(eq, part)?;
+            self.narrow(part)?;
         }
         Ok(())
     }
@@ -434,7 +352,7 @@ impl Rows {
             }
             let row = &self.rows[e];
             let products = row.products.iter();
-            products.fold(-row.right, |sum, &product| sum + value(eq, product, &at))
+            products.fold(-row.right, |sum, &product| sum + value(product, &at))
         });
         let values: Vec<Interval> = values.collect();
         let half = point(0.5);
@@ -464,13 +382,8 @@ impl Rows {
 
 impl Rows {
     /// Bounds the unknowns of a block ([`bounds`]).
-    pub fn bound(
-        &self,
-        eq: &Equations,
-        (block, sums): (&Block, &[Sum]),
-        part: &mut Part,
-    ) -> Result<(), Empty> {
-        let found = bounds(&self.expanded(eq, block, part), block.unknowns.len());
+    pub fn bound(&self, (block, sums): (&Block, &[Sum]), part: &mut Part) -> Result<(), Empty> {
+        let found = bounds(&self.expanded(block, part), block.unknowns.len());
         let ranges = block.unknowns.iter().zip(found.into_iter().flatten());
         for (&u, range) in ranges {
             part.narrow(u, range)?;
@@ -483,9 +396,9 @@ impl Rows {
         let rows = self.rows.iter().filter(is_about);
         let rows = rows.map(|row| {
             let row = (row.products.as_slice(), row.right);
-            Expanded::new(eq, row, &unbounded, part.entries())
+            Expanded::new(row, &unbounded, part.entries())
         });
-        let more = self.added(eq, (block, sums), part);
+        let more = self.added((block, sums), part);
         let more = more.iter().chain(part.exact.rows());
         let more = more.filter_map(|flat| Expanded::of(flat, &unbounded, part.entries()));
         for (k, range) in far(rows.chain(more), unbounded.len()) {
@@ -493,6 +406,49 @@ impl Rows {
         }
         Ok(())
     }
+}
+
+/// Narrows by one row: factor · L · R = right − rest, and all on the right is in a range.
+fn narrow_by(row: &Row, part: &mut Part) -> Result<(), Empty> {
+    let values: Vec<Interval> = row
+        .products
+        .iter()
+        .map(|&product| value(product, &part.x))
+        .collect();
+    if values
+        .iter()
+        .fold(ZERO, |sum, &x| sum + x)
+        .disjoint(row.right)
+    {
+        return Err(Empty);
+    }
+    // The sums of all products behind each.
+    let mut behind = vec![ZERO; values.len() + 1];
+    for k in (0..values.len()).rev() {
+        behind[k] = behind[k + 1] + values[k];
+    }
+    let mut before = ZERO;
+    for (k, &(factor, [left, right])) in row.products.iter().enumerate() {
+        let rest = before + behind[k + 1];
+        before += values[k];
+        let wanted = (row.right - rest) / point(factor as f64);
+        if left == right {
+            square(left, wanted, part)?;
+            continue;
+        }
+        if let Some(shared) = Shared::of(left, right) {
+            shared.narrow(wanted, part)?;
+        }
+        for (this, other) in [(left, right), (right, left)] {
+            let by = difference(&part.x, other);
+            // If 0 may be the product and the other factor, this one may be anything. If 0 is not
+            // the product, it is not the other factor, and the quotient is of all others.
+            if !(by.contains(0.0) && wanted.contains(0.0)) {
+                narrow_form(this, wanted / by, part)?;
+            }
+        }
+    }
+    Ok(())
 }
 
 /// Narrows by L² in a range.
@@ -515,7 +471,7 @@ pub fn roots(square: Interval, now: Interval) -> Result<Interval, Empty> {
         (true, true) => Err(Empty),
         (true, false) => Ok(sides[1]),
         (false, true) => Ok(sides[0]),
-        (false, false) => Ok(checked(-most, most).unwrap_or_else(entire)),
+        (false, false) => Ok(checked(-most, most).unwrap_or(Interval::ENTIRE)),
     }
 }
 
@@ -536,36 +492,4 @@ pub fn narrow_form([a, b]: [usize; 2], range: Interval, part: &mut Part) -> Resu
         part.narrow(b, part.x[a] - range)?;
     }
     Ok(())
-}
-
-/// The equations v = k u.
-fn components(eq: &Equations, rows: &[Row]) -> Vec<Component> {
-    let (zero, one) = (eq.m + 1, [eq.m + 2, eq.m + 1]);
-    let component = |row: &Row| -> Option<Component> {
-        let &[(factor, [vector, number]), (other, [k, heading])] = row.products.as_slice() else {
-            return None;
-        };
-        let [length, level] = eq.forms[k];
-        let fits = row.right == ZERO && eq.forms[number] == one && other == -factor;
-        (fits && level == zero && length < eq.m).then_some(Component {
-            length,
-            vector,
-            heading,
-        })
-    };
-    rows.iter().filter_map(component).collect()
-}
-
-/// From v = k u and w = k x follows v x = w u, which says something where k is not known.
-fn parallel(found: &[Component]) -> Vec<Vec<Product>> {
-    let pairs = found.iter().enumerate().flat_map(|(i, one)| {
-        let same = found[..i].iter().filter(|other| other.length == one.length);
-        same.map(|other| {
-            vec![
-                (1, [one.vector, other.heading]),
-                (-1, [other.vector, one.heading]),
-            ]
-        })
-    });
-    pairs.collect()
 }

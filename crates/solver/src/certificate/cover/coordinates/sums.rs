@@ -25,24 +25,20 @@ impl Sum {
 /// For every two equations the sum with the fewest products of unknowns, if these are fewer than in either, or by two fewer than in one. (Any sum
 /// would do.)
 pub fn choose(rows: &[Expanded]) -> Vec<Sum> {
-    let mut sums = Vec::new();
-    for (e, one) in rows.iter().enumerate() {
-        for (f, other) in rows[..e].iter().enumerate() {
-            let sizes = [one.squares.len(), other.squares.len()];
-            let (least, most) = (sizes[0].min(sizes[1]), sizes[0].max(sizes[1]));
-            let tried = one.squares.iter().filter_map(|(key, &q)| {
-                let by = [*other.squares.get(key)?, q];
-                let count = one.combined(by[0], other, by[1])?.squares.len();
-                Some((count, by))
-            });
-            let best = tried.min_by_key(|(count, _)| *count);
-            if let Some((_, by)) = best.filter(|(count, _)| *count < least || count + 2 <= most) {
-                sums.push(Sum { rows: [e, f], by });
-            }
-        }
-    }
-    sums.truncate(MOST);
-    sums
+    let pairs = (0..rows.len()).flat_map(|e| (0..e).map(move |f| [e, f]));
+    let sums = pairs.filter_map(|pair| {
+        let [one, other] = pair.map(|e| &rows[e]);
+        let sizes = [one.squares.len(), other.squares.len()];
+        let (least, most) = (sizes[0].min(sizes[1]), sizes[0].max(sizes[1]));
+        let tried = one.squares.iter().filter_map(|(key, &q)| {
+            let by = [*other.squares.get(key)?, q];
+            let count = one.combined(by[0], other, by[1])?.squares.len();
+            Some((count, by))
+        });
+        let (count, by) = tried.min_by_key(|(count, _)| *count)?;
+        (count < least || count + 2 <= most).then_some(Sum { rows: pair, by })
+    });
+    sums.take(MOST).collect()
 }
 
 /// Narrows a part by an equation: each term is in the opposite of all others together.

@@ -17,7 +17,7 @@ use super::space::Part;
 use crate::certificate::checker::equations::{Equations, Product};
 use crate::certificate::checker::guess::invert;
 use crate::interval::rounding::largest;
-use crate::interval::{Interval, UNIT, ZERO, checked, enclose, hull, point};
+use crate::interval::{Interval, UNIT, ZERO, checked, enclose, halves, hull, point};
 use crate::problem::{Problem, Shape};
 
 /// A body on legs.
@@ -270,20 +270,12 @@ impl Turn {
 
     /// Both halves of a range, which share a border, the lower one first.
     pub fn halved(&self, i: usize) -> Option<[Turn; 2]> {
-        let x = *self.ranges().get(i)?;
-        let middle = x.mid();
-        if !(x.inf() < middle && middle < x.sup()) {
-            return None;
-        }
         let with = |range| {
             let mut half = self.clone();
             half.ranges[i] = range;
             half
         };
-        Some([
-            with(checked(x.inf(), middle)?),
-            with(checked(middle, x.sup())?),
-        ])
+        Some(halves(*self.ranges().get(i)?)?.map(with))
     }
 
     /// The same with the coordinate along an axis, in a range that holds all that it may be.
