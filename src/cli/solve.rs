@@ -555,6 +555,14 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             let gap = arguments.gap_before(k);
             let text = match (first, arguments.first) {
                 (Some(text), _) => text + &arguments.part_in_words(tested),
+                // It is there, and no figure of the problem.
+                (None, true) if tested.is_some_and(|tested| tested.missed > 0) => {
+                    format!(
+                        "{}: No solution without a fold. {}",
+                        problem.name,
+                        arguments.part_in_words(tested)
+                    )
+                }
                 (None, true) if turns_at.is_some() => to_no_first(problem, turns_at),
                 (None, true) if arguments.mode == Mode::Float => format!(
                     "{}: which solution is reached without a fold, if any, is told by certified mode alone: leave out \
