@@ -15,7 +15,7 @@ use krawl::certificate::Writer;
 use krawl::complete::{Among, Surplus, Tested, among};
 use krawl::constraint::fix_frame;
 use krawl::edit::{Alone, alone};
-use krawl::problem::Problem;
+use krawl::problem::{Problem, free_coordinates};
 use krawl::remarks::{Remark, in_words, moves, remarks};
 use krawl::report::page::Page;
 use krawl::report::{
@@ -666,6 +666,12 @@ impl<'a> Unbounded<'a> {
     }
 }
 
+/// Whether a figure without a frame has fewer constraints than it needs.
+fn is_loose(problem: &Problem) -> bool {
+    let needed = free_coordinates(problem.dimension, problem.points.len());
+    problem.distances.len() + problem.constraints.len() < needed
+}
+
 /// The graver of two exit codes.
 fn worse(one: u8, other: u8) -> u8 {
     match (one, other) {
@@ -813,9 +819,10 @@ impl Arguments {
             false if input::has_surplus(&loaded.problem.clone().up_to_motions()) => {
                 "; or see `krawl all`, which finds all figures that have as many as are needed, and tests the others"
             }
-            false => {
-                "; `krawl edit` changes it as it is, with what nothing determines held, and `krawl motion` follows how it moves, if in one way"
+            false if is_loose(&loaded.problem) => {
+                "; `krawl motion` follows it where it moves in one way, and `krawl edit` changes it as it is"
             }
+            false => "",
         };
         Err(fault + advice)
     }

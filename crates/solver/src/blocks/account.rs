@@ -341,7 +341,7 @@ pub fn rounded_down(x: f64) -> String {
 /// The same number without a power of ten, where it has few zeros so.
 fn plain(text: String) -> String {
     match text.parse::<f64>() {
-        Ok(x) if (1e-3..1e4).contains(&x.abs()) => x.to_string(),
+        Ok(x) if x == 0.0 || (1e-3..1e4).contains(&x.abs()) => x.to_string(),
         _ => text,
     }
 }
@@ -454,10 +454,13 @@ mod tests {
     fn numbers_are_rounded_the_safe_way() {
         assert_eq!(rounded_up(2.9e-12), "3e-12");
         assert_eq!(rounded_up(3.1e-12), "4e-12");
-        assert_eq!(rounded_up(9.4e-3), "1e-2");
-        assert_eq!(rounded_down(2.26), "2.2e0".replace("2.2e0", "2e0"));
-        assert_eq!(rounded_down(2.24), "2.2e0");
-        assert_eq!(rounded_up(0.0), "0e0");
+        assert_eq!(rounded_up(9.4e-3), "0.01");
+        assert_eq!(rounded_down(2.26), "2");
+        assert_eq!(rounded_down(2.24), "2.2");
+        assert_eq!(rounded_down(0.84), "0.84");
+        assert_eq!(rounded_up(9.7e-4), "0.001");
+        assert_eq!(rounded_up(1234.0), "2000");
+        assert_eq!(rounded_up(0.0), "0");
     }
 
     /// Of a constraint with several equations no verdict is better than that of any of them.
