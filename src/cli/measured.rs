@@ -32,16 +32,23 @@ impl Measured {
     /// What is to be measured of the points of a problem: what the file wants, by its names, and what was asked for.
     pub fn texts(&self, problem: &Problem) -> Vec<String> {
         let own = of_file(problem);
-        let own = own.filter(|text| Quantity::parse(problem, text).is_ok());
+        let has_meaning = |found: Quantity| problem.is_absolute() || found.is_invariant();
+        let own = own.filter(|text| Quantity::parse(problem, text).is_ok_and(has_meaning));
         own.chain(self.measure.iter().cloned()).collect()
     }
 
     /// Of the points and objects of a problem.
     pub fn of(&self, problem: &Problem) -> Result<Measures, String> {
-        let all: Vec<String> = of_file(problem)
-            .chain(self.measure.iter().cloned())
-            .collect();
-        Measures::parse(problem, &all)
+        let own: Vec<String> = of_file(problem).collect();
+        for ((name, _), text) in problem.measures.iter().zip(&own) {
+            Measures::parse(problem, std::slice::from_ref(text)).map_err(|error| {
+                format!(
+                    "[measures] {name}: {}",
+                    error.trim_start_matches("--measure ")
+                )
+            })?;
+        }
+        Measures::parse(problem, &[&own[..], &self.measure].concat())
     }
 
     /// Of the points of a problem alone.

@@ -485,7 +485,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
                     written &=
                         output::print(&format!("{gap}{}{hints}", arguments.shown_blocks(&all)));
                 }
-                if arguments.take.is_wanted() || !measures.is_empty() {
+                if arguments.take.is_wanted() || !arguments.measured.is_empty() {
                     let what = "the solutions listed are of parts of the figure, none of which is written or measured";
                     output::complain(&format!("{}: {what}", input::name(file)));
                     written = false;
@@ -521,19 +521,20 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         written &= arguments.take.write(from, problem, listed, |number| {
             Taken::of(problem, &outcome.solutions[number as usize], false)
         });
+        let is_undecided =
+            arguments.mode == Mode::Certified && tested.is_some_and(|tested| !tested.is_decided());
         worst = match (&outcome.status, worst) {
-            _ if first.is_some() => worst,
+            _ if arguments.first && tested.is_some_and(|tested| tested.missed > 0) => {
+                worse(worst, LIMIT)
+            }
+            _ if first.is_some() && !is_undecided => worst,
             _ if turns_at.is_some() => worse(worst, LIMIT),
             (Status::Stopped(_), _) | (_, STOPPED) => STOPPED,
             // Float runs do not tell which of their solutions is reached without a fold.
             _ if arguments.first && arguments.mode == Mode::Float => STOPPED,
             // The path comes back, or ends, and has no such solution.
             _ if arguments.first => LIMIT,
-            _ if arguments.mode == Mode::Certified
-                && tested.is_some_and(|tested| !tested.is_decided()) =>
-            {
-                STOPPED
-            }
+            _ if is_undecided => STOPPED,
             (Status::Open(_), _) => OPEN,
             // A certificate that does not pass its check.
             (Status::Closed, CLOSED) => verdict.unwrap_or(CLOSED),
@@ -792,7 +793,9 @@ impl Arguments {
         }
         let loaded = input::load(file, sketch)?;
         let is_in_its_frame = fix_frame(&loaded.problem);
-        if let Some(surplus) = loaded.surplus() {
+        if let Some(surplus) = loaded.surplus()
+            && (self.mode == Mode::Certified || loaded.fault.is_none())
+        {
             let surplus = surplus
                 .into_owned()
                 .with_tolerance(self.left_out.redundant_tolerance);

@@ -170,12 +170,28 @@ fn compare(of_file: OfFile, is_about: impl Fn(&Problem) -> bool) -> (bool, Accou
 
 /// That the problem of a certificate is that of a file, what was compared, and what was made of that.
 fn about(file: &Path, found: &Account) -> String {
+    let (which, but) = match found.left_out.is_empty() {
+        true => ("all constraints", ""),
+        // Where the length that bends was left out another one does.
+        false => (
+            "the constraints that are used",
+            ", but for which length bends if that of the file was left out",
+        ),
+    };
     format!(
-        "The problem is the one in {}: the points, where the sketch has them, all constraints and the way from the sketch \
-         to them are the same, exactly{}.\n",
+        "The problem is the one in {}: the points, where the sketch has them, {which} and the way from the sketch \
+         to them are the same, exactly{but}.{}\n",
         file.display(),
-        input::held_and_left_out(found)
+        held_and_left_out(found)
     )
+}
+
+/// What a certificate does not say of its file, as a sentence behind another one.
+fn held_and_left_out(found: &Account) -> String {
+    match found.clause() {
+        clause if clause.is_empty() => clause,
+        clause => format!(" What is proved is about the figure {clause}."),
+    }
 }
 
 /// Prints what was proved of a set of solutions, and whether it is about the same as the problem file, if there is one, of
@@ -205,9 +221,9 @@ fn print_with_problem(
         };
         text += &match same {
             true => format!(
-                "The {what} are those in {}, exactly{sketch}{}.\n",
+                "The {what} are those in {}, exactly{sketch}.{}\n",
                 file.display(),
-                input::held_and_left_out(found)
+                held_and_left_out(found)
             ),
             false => format!(
                 "REFUTED: the {which} are not those in {}.\n",

@@ -173,6 +173,7 @@ pub(super) struct Counts<'a> {
     met: usize,
     missed: usize,
     missed_by: Option<f64>,
+    within: Option<f64>,
     undecided: usize,
     left_out: &'a [String],
     #[serde(skip_serializing_if = "<[_]>::is_empty")]
@@ -188,6 +189,7 @@ impl<'a> Counts<'a> {
             met: tested.met,
             missed: tested.missed,
             missed_by: tested.by.is_finite().then_some(tested.by),
+            within: (tested.met > 0).then_some(tested.within),
             undecided: tested.undecided,
             left_out: &tested.left_out,
             added: &tested.added,
@@ -550,6 +552,9 @@ pub(super) fn tested_in_words(tested: &Tested) -> String {
             1 => format!(" Of one it is not decided whether it meets {others}."),
             n => format!(" Of {n} it is not decided whether they meet {others}."),
         };
+    }
+    if tested.missed > 0 && tested.met + tested.undecided == 0 {
+        text += " With `--redundant-tolerance` larger misses count as met.";
     }
     let looked_at = (tested.met + tested.missed + tested.undecided) as u64;
     if left_out > 0 && tested.found.is_none_or(|found| found > looked_at) {

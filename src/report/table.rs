@@ -295,11 +295,8 @@ fn used_in_words(tested: &Tested) -> String {
 
 /// What a path was followed with, where constraints were left out, and how its figures stand to these.
 pub fn part_in_words(tested: &Tested) -> String {
-    format!(
-        "Followed with {}.{}",
-        used_in_words(tested),
-        tested_in_words(tested)
-    )
+    let others = tested_in_words(tested).replacen(" Of these", " Of its figures", 1);
+    format!("Followed with {}.{others}", used_in_words(tested))
 }
 
 /// What was found where a part of the constraints was followed, and how the figures that have these stand to the others.

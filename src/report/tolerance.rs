@@ -45,7 +45,7 @@ fn write_measured(
     let [low, high] = measured.bounds;
     writeln!(
         out,
-        "\n{} is {}; at worst from {} to {}{}; root of the sum of the squares ±{:.3}",
+        "\n{} is {}; at worst from {} to {}{}; root of the sum of the squares ±{}",
         measured.name,
         certain_digits(measured.nominal),
         rounded(low.inf(), f64::floor),
@@ -59,7 +59,7 @@ fn write_measured(
             ),
             _ => ", which may be too wide: the corners were not reached".to_owned(),
         },
-        measured.root_of_squares
+        short(measured.root_of_squares)
     )?;
     let total: f64 = measured.effects.iter().map(|e| e.abs()).sum();
     let mut rows: Vec<usize> = (0..measured.effects.len()).collect();
@@ -84,15 +84,23 @@ fn write_measured(
         let effect = measured.effects[k];
         writeln!(
             out,
-            "  {name:<width$}  from {low} to {high} changes it by {effect:+.4}, {:.0} %",
+            "  {name:<width$}  from {low} to {high} changes it by {}{}, {:.0} %",
+            if effect < 0.0 { "" } else { "+" },
+            short(effect),
             100.0 * effect.abs() / total
         )?;
     }
     Ok(())
 }
 
+/// A number of four digits, for what is known to first order.
+pub(super) fn short(x: f64) -> String {
+    let shown = format!("{x:.3e}").parse().unwrap_or(x);
+    f64::to_string(&shown)
+}
+
 /// A bound with some digits, rounded away from what it bounds.
-fn rounded(x: f64, to: impl Fn(f64) -> f64) -> String {
+pub(super) fn rounded(x: f64, to: impl Fn(f64) -> f64) -> String {
     let size = x.abs().log10().floor();
     let places = if size.is_finite() {
         (5.0 - size).clamp(0.0, 15.0)

@@ -483,7 +483,7 @@ fn the_program_certifies_sketches_that_are_not_complete() {
     );
     let (code, text) = krawl(&["verify", cert, loose]);
     assert!(
-        code == 0 && text.contains("exactly, with y of b and y of p held where they are"),
+        code == 0 && text.contains("about the figure with y of b and y of p held where they are"),
         "{text}"
     );
     let (code, text) = krawl(&["verify", cert, out]);

@@ -163,6 +163,21 @@ fn certificates_of_figures_with_a_distance_too_many_are_about_their_file() {
             "{verb}: {text}"
         );
     }
+    // With another way there it is about another path.
+    let way = format!("{text}[homotopy]\nbend = [\"a\", \"b\"]\nbend_coefficient = 1.5\n");
+    fs::write(&file, &way).unwrap();
+    assert_eq!(
+        krawl(&["solve", &file, "--cert", &proof, "--quiet"]).0,
+        Some(0)
+    );
+    let (code, text_of) = krawl(&["solve", &file, "--json", "-"]);
+    let led: Value = serde_json::from_str(&text_of).unwrap();
+    assert_eq!(code, Some(0));
+    assert_eq!(led["options"]["bend"], serde_json::json!(["a", "b"]));
+    assert_eq!(led["options"]["bend_coefficient"], "1.5");
+    assert_eq!(krawl(&["verify", &proof, &file]).0, Some(0));
+    fs::write(&file, way.replace("1.5", "2.5")).unwrap();
+    assert_eq!(krawl(&["verify", &proof, &file]).0, Some(1));
     fs::write(&file, text.replace("\"c\",5]", "\"c\",5.01]")).unwrap();
     assert_eq!(krawl(&["verify", &proof, &file]).0, Some(1));
 }

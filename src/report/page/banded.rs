@@ -3,6 +3,7 @@
 use super::reader::{Reader, ShowError, bounds, digits, list, middle, pair, text, wrong};
 use super::{Figure, Page, Shape, Text, Tone};
 use crate::order::InOrder;
+use crate::report::tolerance::{rounded, short};
 use serde_json::Value;
 
 /// The widest band is drawn about so wide, as a part of the figure.
@@ -32,7 +33,10 @@ pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
         bands.iter().flatten().map(|(low, high)| high - low),
     );
     let (size, widest) = (sizes.fold(0.0, f64::max), widths.fold(0.0, f64::max));
-    let times = times(SEEN * size / widest);
+    let times = match widest > 0.0 {
+        true => times(SEEN * size / widest),
+        false => 1.0,
+    };
     let mut outlines = Vec::new();
     for (name, band) in page.points.iter().zip(&bands) {
         // A point that stays where it is has no band.
@@ -85,7 +89,12 @@ pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
         let nominal = digits(end("nominal")?);
         page.rows.push((
             name.to_owned(),
-            format!("{nominal}; at worst from {least:.6} to {greatest:.6}; root of the sum of the squares ±{squares:.3}"),
+            format!(
+                "{nominal}; at worst from {} to {}; root of the sum of the squares ±{}",
+                rounded(least, f64::floor),
+                rounded(greatest, f64::ceil),
+                short(squares)
+            ),
         ));
         let effects = list(measured, "effects")?
             .iter()

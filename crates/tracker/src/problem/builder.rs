@@ -83,22 +83,37 @@ impl Problem {
             .collect()
     }
 
-    /// A problem of distances with some of them, by index, and nothing else. `None`: it is not well constrained.
+    /// A problem of distances with some of them, by index, led in the same way: with the same reference, and the same bend if that is one of them.
+    /// `None`: it is not well constrained.
     pub fn with_distances(&self, mut is_kept: impl FnMut(usize) -> bool) -> Option<Problem> {
         let mut builder = Problem::build(&self.name, self.dimension).source(&self.source);
         for point in &self.points {
             let coordinates = point.sketch.iter().take(self.dimension).cloned();
             builder = builder.point(&point.name, coordinates);
         }
+        let choices = &self.homotopy;
+        let name = |&p: &usize| self.points[p].name.as_str();
+        builder = builder.detour(choices.detour.clone());
         for (index, distance) in self.distances.iter().enumerate() {
-            let [a, b] = distance.points.each(|p| self.points[p].name.as_str());
+            let [a, b] = distance.points.each(|p| name(&p));
+            if !is_kept(index) {
+                continue;
+            }
+            if index == choices.bend {
+                let coefficient = choices.bend_coefficient.clone();
+                builder = builder.bend([a, b]).bend_coefficient(coefficient);
+            }
             builder = match &distance.target {
-                _ if !is_kept(index) => builder,
                 Target::Length(x) => builder.distance(a, b, x.clone()),
                 Target::SquaredLength(x) => builder.squared_distance(a, b, x.clone()),
             };
         }
-        builder.finish().ok()
+        // It may not be held by those that are left.
+        let reference: Vec<&str> = choices.reference.iter().map(name).collect();
+        let led = builder.clone().reference(&reference).finish();
+        let mut problem = led.or_else(|_| builder.finish()).ok()?;
+        problem.measures.clone_from(&self.measures);
+        Some(problem)
     }
 
     /// Starts a problem in the plane (`dimension` 2) or in space (3).

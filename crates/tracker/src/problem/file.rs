@@ -779,7 +779,12 @@ impl<'a> Reader<'a> {
         let all = self.table(line, "measures", item)?;
         let all = all.iter().map(|(name, item)| {
             let line = self.line(item.span()).or(line);
-            let what = self.string(line, &format!("measures.{name}"), item)?;
+            let key = format!("measures.{name}");
+            let what = self.string(line, &key, item)?;
+            if name.trim().is_empty() || name.contains(|c: char| c == '=' || c.is_control()) {
+                let found = "one without a name, or with `=` in it".to_owned();
+                return Err(self.wrong(line, &key, "of a measure with a name", found));
+            }
             Ok((name.to_owned(), what))
         });
         all.collect()
