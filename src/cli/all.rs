@@ -240,10 +240,10 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     if !arguments.quiet && !elsewhere {
         let mut text = complete_to_table(&problem, &result);
         text += &measures.to_table("", figures());
-        let made = input::held_and_left_out(&made);
+        let made = made.clause();
         if !made.is_empty() {
             text +=
-                &format!("\nThe sketch was searched with as many equations as unknowns{made}.\n");
+                &format!("\nThe sketch was searched with as many equations as unknowns, {made}.\n");
         }
         text += &checked.text;
         written &= output::print(&text);

@@ -12,7 +12,6 @@ use krawl::edit::{Asked, Astray, Drag, Edited, Ending, OpenError, Session, Setti
 use krawl::import::Format;
 use krawl::problem::Problem;
 use krawl::remarks::moves;
-use krawl::report::page::Page;
 use krawl::report::{account_in_words, edit_to_document, edit_to_table};
 use krawl::track::{Control, Options, StopKind, Witness};
 use std::fs::File;
@@ -247,14 +246,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         }
         value
     };
-    if !pictures.is_empty() {
-        let page = Page::from_result(&document());
-        written &= pictures.write(&page.map_err(|error| error.to_string())?);
-    }
-    if let Some(json) = &json {
-        let value = document();
-        written &= json.write(&(value.to_string() + "\n"));
-    }
+    written &= pictures.write_result(json.as_ref(), document)?;
     if let Some(out) = &arguments.out
         && edited.ending == Ending::Reached
     {

@@ -1,7 +1,7 @@
 //! Reading problems from files and from standard input.
 
 use super::output;
-use krawl::blocks::{Account, MOST_POINTS};
+use krawl::blocks::Account;
 use krawl::complete::{Surplus, has_equations_to_spare};
 use krawl::constraint::fix_frame;
 use krawl::edit::{Decomposition, Setting, completed};
@@ -73,14 +73,6 @@ pub fn provable(file: &Path, problem: &Problem) -> Result<(Problem, Account), St
     Ok((completed(problem).map_err(in_file)?, found.account))
 }
 
-/// What was held and left out of a sketch that has not as many equations as unknowns, as the end of a sentence.
-pub fn held_and_left_out(account: &Account) -> String {
-    match account.clause() {
-        clause if !clause.is_empty() => format!(", {clause}"),
-        _ => String::new(),
-    }
-}
-
 /// The problem of a file as sets of all solutions are about it: of a problem file as it is, of a sketch of another program as
 /// [`provable`] makes it.
 pub fn whole(file: &Path, sketch: Option<&str>) -> Result<(Problem, Account), String> {
@@ -110,40 +102,23 @@ pub enum Asked {
 
 /// Reads what a set of all solutions is to be about.
 pub fn asked(file: &Path, sketch: Option<&str>, tolerance: Option<f64>) -> Result<Asked, String> {
-    let of_surplus = |surplus: Surplus| Asked::Surplus(Box::new(surplus.with_tolerance(tolerance)));
     let of_problem = |read| Asked::Problem(Box::new(read));
-    match Format::of(&file.display().to_string()) {
-        Some(Format::SolveSpace | Format::FreeCad) => whole(file, sketch).map(of_problem),
-        Some(Format::Xyz | Format::Sdf | Format::Pdb) => {
-            let imported = import(file, sketch)?.0;
-            tell(file, &imported);
-            let problem = imported.problem;
-            Ok(imported
-                .surplus
-                .map_or_else(|| of_problem((problem, Account::default())), of_surplus))
-        }
-        None => {
-            let loaded = load(file, sketch)?;
-            let Some(fault) = loaded.fault else {
-                return Ok(of_problem((loaded.problem, Account::default())));
-            };
-            let problem = loaded.problem.up_to_motions();
-            match Surplus::of(&problem, tolerance) {
-                Some(surplus) => Ok(of_surplus(surplus)),
-                None if has_equations_to_spare(&problem) => {
-                    Ok(of_problem((problem, Account::default())))
-                }
-                None => Err(fault),
-            }
-        }
+    let loaded = load(file, sketch)?;
+    if is_sketch(file) {
+        return provable(file, &loaded.problem).map(of_problem);
     }
-}
-
-/// Whether `krawl all` searches figures of a part of a problem's constraints, and tests them against the others. Of figures with
-/// very many points that is not looked for: false.
-pub fn has_surplus(problem: &Problem) -> bool {
-    problem.points.len() <= MOST_POINTS
-        && (Surplus::of(problem, None).is_some() || has_equations_to_spare(problem))
+    if let Some(surplus) = loaded.surplus() {
+        let surplus = surplus.into_owned().with_tolerance(tolerance);
+        return Ok(Asked::Surplus(Box::new(surplus)));
+    }
+    let Some(fault) = loaded.fault else {
+        return Ok(of_problem((loaded.problem, Account::default())));
+    };
+    let problem = loaded.problem.up_to_motions();
+    match has_equations_to_spare(&problem) {
+        true => Ok(of_problem((problem, Account::default()))),
+        false => Err(fault),
+    }
 }
 
 /// Whether a file is a sketch in its own frame, of SolveSpace or FreeCAD.

@@ -5,7 +5,6 @@ use super::output::{self, Destination};
 use super::pictures::Pictures;
 use super::{BAD_INPUT, CLOSED, STOPPED, input, interrupt};
 use krawl::edit::{End, Setting};
-use krawl::report::page::Page;
 use krawl::report::{ranges_to_table, ranges_to_value};
 use std::path::PathBuf;
 
@@ -84,15 +83,8 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     for range in &mut ranges {
         loaded.add_left_out(&mut range.account, None);
     }
-    let mut written = true;
-    if let Some(json) = &json {
-        let value = ranges_to_value(problem, &ranges, session.moved());
-        written &= json.write(&(value.to_string() + "\n"));
-    }
-    if !pictures.is_empty() {
-        let page = Page::from_result(&ranges_to_value(problem, &ranges, session.moved()));
-        written &= pictures.write(&page.map_err(|error| error.to_string())?);
-    }
+    let value = || ranges_to_value(problem, &ranges, session.moved());
+    let mut written = pictures.write_result(json.as_ref(), value)?;
     let elsewhere = json == Some(Destination::StandardOutput) || pictures.use_standard_output();
     if !arguments.quiet && !elsewhere {
         let drawn = drawn_in_words(problem, &session);

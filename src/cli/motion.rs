@@ -6,7 +6,6 @@ use super::output::{self, Destination};
 use super::pictures::Pictures;
 use super::{BAD_INPUT, CLOSED, OPEN, STOPPED, input, interrupt};
 use krawl::motion::Motion;
-use krawl::report::page::Page;
 use krawl::report::{motion_in_words, motion_to_csv, motion_to_table, motion_to_value};
 use krawl::track::Options;
 use std::path::PathBuf;
@@ -85,23 +84,13 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         }
         motion => motion.map_err(|error| format!("{}: {error}", arguments.file.display()))?,
     };
-    for frame in &motion.frames {
-        loaded.add_left_out(&mut motion.account, Some(&frame.points));
-    }
+    // Frames are not all of the way.
+    loaded.add_left_out(&mut motion.account, None);
     let mut written = true;
     if let Some(csv) = &csv {
         written &= csv.write(&motion_to_csv(&motion, &measures));
     }
-    if json.is_some() || !pictures.is_empty() {
-        let value = motion_to_value(&motion);
-        if let Some(json) = &json {
-            written &= json.write(&(value.to_string() + "\n"));
-        }
-        if !pictures.is_empty() {
-            let page = Page::from_result(&value).map_err(|error| error.to_string())?;
-            written &= pictures.write(&page);
-        }
-    }
+    written &= pictures.write_result(json.as_ref(), || motion_to_value(&motion))?;
     let standard = Some(Destination::StandardOutput);
     let elsewhere = json == standard || csv == standard || pictures.use_standard_output();
     if elsewhere && !arguments.quiet {

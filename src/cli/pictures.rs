@@ -2,6 +2,7 @@
 
 use super::output::{self, Destination};
 use krawl::report::page::Page;
+use serde_json::Value;
 use std::path::{Path, PathBuf};
 
 /// Where pages, pictures and figures go.
@@ -111,6 +112,24 @@ impl Places<'_> {
     pub fn use_standard_output(&self) -> bool {
         let mut all = self.all.iter();
         all.any(|(_, destination, _)| *destination == Destination::StandardOutput)
+    }
+
+    /// Writes a result, which is made where it is wanted, as JSON and as pictures. Returns whether all is well, having complained otherwise.
+    pub fn write_result(
+        &self,
+        json: Option<&Destination>,
+        result: impl FnOnce() -> Value,
+    ) -> Result<bool, String> {
+        if json.is_none() && self.is_empty() {
+            return Ok(true);
+        }
+        let value = result();
+        let mut well = json.is_none_or(|json| json.write(&(value.to_string() + "\n")));
+        if !self.is_empty() {
+            let page = Page::from_result(&value).map_err(|error| error.to_string())?;
+            well &= self.write(&page);
+        }
+        Ok(well)
     }
 
     /// Writes all of it. Returns whether all is well, having complained otherwise.

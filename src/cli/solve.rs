@@ -10,9 +10,9 @@ use super::{BAD_INPUT, CLOSED, LIMIT, OPEN, STOPPED, input, interrupt};
 use crate::order::InOrder;
 use crate::places::Each as _;
 use clap::ValueEnum;
-use krawl::blocks::{Figures, First as Nearest, clusters};
+use krawl::blocks::{Figures, First as Nearest, MOST_POINTS, clusters};
 use krawl::certificate::Writer;
-use krawl::complete::{Among, Surplus, Tested, among};
+use krawl::complete::{Among, Surplus, Tested, among, has_equations_to_spare};
 use krawl::constraint::fix_frame;
 use krawl::edit::{Alone, alone};
 use krawl::problem::{Problem, free_coordinates};
@@ -819,7 +819,11 @@ impl Arguments {
         }
         let advice = match is_in_its_frame {
             true => "",
-            false if input::has_surplus(&loaded.problem.clone().up_to_motions()) => {
+            // Of figures with very many points that is not looked for.
+            false
+                if loaded.problem.points.len() <= MOST_POINTS
+                    && has_equations_to_spare(&loaded.problem.clone().up_to_motions()) =>
+            {
                 "; or see `krawl all`, which finds all figures that have as many as are needed, and tests the others"
             }
             false if is_loose(&loaded.problem) => {

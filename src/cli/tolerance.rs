@@ -6,7 +6,6 @@ use super::output::{self, Destination};
 use super::pictures::Pictures;
 use super::{BAD_INPUT, CLOSED, STOPPED, input, interrupt};
 use krawl::problem::Decimal;
-use krawl::report::page::Page;
 use krawl::report::{
     tolerances_in_words, tolerances_to_csv, tolerances_to_table, tolerances_to_value,
 };
@@ -107,16 +106,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     if let Some(csv) = &csv {
         written &= csv.write(&tolerances_to_csv(&problem, &study));
     }
-    if json.is_some() || !pictures.is_empty() {
-        let value = tolerances_to_value(&problem, &study);
-        if let Some(json) = &json {
-            written &= json.write(&(value.to_string() + "\n"));
-        }
-        if !pictures.is_empty() {
-            let page = Page::from_result(&value).map_err(|error| error.to_string())?;
-            written &= pictures.write(&page);
-        }
-    }
+    written &= pictures.write_result(json.as_ref(), || tolerances_to_value(&problem, &study))?;
     let standard = Some(Destination::StandardOutput);
     let elsewhere = json == standard || csv == standard || pictures.use_standard_output();
     if elsewhere && !arguments.quiet {

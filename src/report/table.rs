@@ -7,7 +7,7 @@ use crate::complete::Tested;
 use crate::constraint::{Symmetry, symmetry};
 use crate::interval::{Interval, hull};
 use crate::order::each_once;
-use crate::problem::{Problem, Shape, list};
+use crate::problem::{Problem, Shape, counted, list};
 use crate::system::Located;
 use crate::track::{EndKind, Mode, Outcome, PathEnd, Solution, Space, Status};
 use std::fmt::{self, Write};
@@ -295,8 +295,9 @@ fn used_in_words(tested: &Tested) -> String {
 
 /// What a path was followed with, where constraints were left out, and how its figures stand to these.
 pub fn part_in_words(tested: &Tested) -> String {
-    let others = tested_in_words(tested).replacen(" Of these", " Of its figures", 1);
-    format!("Followed with {}.{others}", used_in_words(tested))
+    let figures = counted(tested.found.unwrap_or(u64::MAX) as usize, "figure");
+    let (used, others) = (used_in_words(tested), tested_in_words(tested));
+    format!("Followed with {used}, to {figures}.{others}")
 }
 
 /// What was found where a part of the constraints was followed, and how the figures that have these stand to the others.
@@ -305,10 +306,10 @@ fn verdict_of_a_part(outcome: &Outcome, tested: &Tested, different: &str) -> Str
         "with {} the path through the sketch has",
         used_in_words(tested)
     );
-    let points = match tested.found {
-        Some(0) => "no point with t = 1".to_owned(),
-        Some(1) => "exactly one point with t = 1".to_owned(),
-        n => format!("exactly {} points with t = 1", n.unwrap_or(u64::MAX)),
+    let (exactly, points) = match tested.found.unwrap_or(u64::MAX) {
+        0 => ("", "no point with t = 1".to_owned()),
+        1 => ("exactly ", "one point with t = 1".to_owned()),
+        n => ("exactly ", format!("{n} points with t = 1")),
     };
     let others = tested_in_words(tested);
     let proved = match outcome.mode {
@@ -316,16 +317,15 @@ fn verdict_of_a_part(outcome: &Outcome, tested: &Tested, different: &str) -> Str
         Mode::Float => "observed (floating-point tracking, not a proof)",
     };
     match &outcome.status {
-        Status::Closed => format!("Closed, {proved}: {path} {points}.{others}{different}"),
+        Status::Closed => format!("Closed, {proved}: {path} {exactly}{points}.{others}{different}"),
         Status::Open(ends) => format!(
-            "Open, {proved}: between the two places below, {path} {points}. It seems to end at both, and was not followed \
+            "Open, {proved}: between the two places below, {path} {exactly}{points}. It seems to end at both, and was not followed \
              beyond.{others}{different}{}",
             both_ends(ends)
         ),
         Status::Stopped(reason) => format!(
-            "Stopped: {}. Up to there {path} {}, {proved}; there may be more.{others}{different}",
-            without_stop(reason),
-            points.replace("exactly ", "")
+            "Stopped: {}. Up to there {path} {points}, {proved}; there may be more.{others}{different}",
+            without_stop(reason)
         ),
     }
 }

@@ -72,6 +72,19 @@ impl Tested {
         self.left_out.is_empty() || self.undecided == 0 && self.found == Some(tested)
     }
 
+    /// Before any figure is looked at: how many constraints are used and how many not, how many figures have those used, what was left out.
+    fn begin([used, spare]: [usize; 2], found: Option<u64>, left_out: Vec<String>) -> Self {
+        Tested {
+            used,
+            all: used + spare,
+            what: "constraints",
+            found,
+            by: f64::INFINITY,
+            left_out,
+            ..Tested::default()
+        }
+    }
+
     /// Counts a figure by how it stands to what was left out, and keeps that if the figure is a solution: it is none if it was proved to miss something.
     fn is_solution(&mut self, figure: Vec<LeftOut>) -> bool {
         let all = figure.iter().map(|one| one.verdict);
@@ -171,16 +184,9 @@ impl Surplus {
     /// Tests the solutions of a path on which the distances used were led to what they are to be: those that were proved to miss one of the
     /// others are no solutions, and are taken out.
     pub fn test(&self, outcome: &mut Outcome) -> Tested {
-        let mut tested = Tested {
-            used: self.used(),
-            all: self.used() + self.spare.len(),
-            what: "constraints",
-            found: Some(outcome.solutions.len() as u64),
-            by: f64::INFINITY,
-            left_out: self.names(),
-            added: self.added.clone(),
-            ..Tested::default()
-        };
+        let found = Some(outcome.solutions.len() as u64);
+        let mut tested = Tested::begin([self.used(), self.spare.len()], found, self.names());
+        tested.added.clone_from(&self.added);
         if outcome.mode == Mode::Float {
             // Nothing is known of floats.
             tested.undecided = outcome.solutions.len();
@@ -263,16 +269,10 @@ impl Complete {
         figures: Vec<Vec<LeftOut>>,
     ) {
         let before = self.tested.take().unwrap_or_default();
-        let mut tested = Tested {
-            used: used - before.left_out.len(),
-            all: used + spare,
-            what: "constraints",
-            found: self.count,
-            by: f64::INFINITY,
-            left_out: [before.left_out, left_out].concat(),
-            added: before.added,
-            ..Tested::default()
-        };
+        let gone = before.left_out.len();
+        let left_out = [before.left_out, left_out].concat();
+        let mut tested = Tested::begin([used - gone, spare + gone], self.count, left_out);
+        tested.added = before.added;
         let mut before = before.figures.into_iter();
         let figures = figures.into_iter().map(|figure| {
             let first = before.next().unwrap_or_default();
