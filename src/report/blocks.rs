@@ -1,5 +1,6 @@
 //! A problem that was followed block by block, and the figures of the whole that come of it.
 
+use super::columns::{DIGITS, written};
 use super::edit::{points_to_value, write_points};
 use super::json::Run;
 use crate::blocks::{Combined, CombinedChoice};
@@ -92,10 +93,8 @@ impl BlockRuns<'_> {
 
     /// The combined figures as a text of several lines, the first ones or all.
     pub fn to_table(&self, all: bool) -> String {
-        let mut out = format!("{}: {}\n", self.problem.name, self.verdict());
-        // Writing to a string cannot fail.
-        let _ = self.write_figures(&mut out, all);
-        out
+        let heading = format!("{}: {}\n", self.problem.name, self.verdict());
+        heading + &written(|out| self.write_figures(out, all))
     }
 
     fn write_figures(&self, out: &mut String, all: bool) -> fmt::Result {
@@ -125,10 +124,7 @@ impl BlockRuns<'_> {
             )?;
         }
         if count > 0 {
-            writeln!(
-                out,
-                "\nEvery coordinate differs from the exact one by at most 1 in its last digit shown."
-            )?;
+            writeln!(out, "\n{DIGITS}")?;
         }
         Ok(())
     }

@@ -1,7 +1,7 @@
 //! All solutions, for people and for programs.
 
-use super::certain_digits;
-use super::drawing::{Drawing, names};
+use super::columns::{DIGITS, write_digits, written};
+use super::drawing::{Drawing, all_names, names};
 use super::json::Points;
 use super::objects::Objects;
 use super::supposed::supposed;
@@ -61,12 +61,7 @@ impl<'a> Document<'a> {
                 .parts
                 .iter()
                 .map(|part| Piece {
-                    points: part
-                        .problem
-                        .points
-                        .iter()
-                        .map(|p| p.name.as_str())
-                        .collect(),
+                    points: all_names(&part.problem),
                     status: part.result.status.name(),
                     solutions: part.result.solutions.len(),
                     boxes: part.result.boxes,
@@ -236,10 +231,7 @@ fn why(why: Why) -> &'static str {
 
 /// The result as a text of several lines: what is proved, the solutions, the numbers of the search.
 pub fn complete_to_table(problem: &Problem, result: &Complete) -> String {
-    let mut out = String::new();
-    // Writing to a string cannot fail.
-    let _ = write_table(&mut out, problem, result);
-    out
+    written(|out| write_table(out, problem, result))
 }
 
 fn write_table(out: &mut String, problem: &Problem, result: &Complete) -> std::fmt::Result {
@@ -265,13 +257,7 @@ fn write_table(out: &mut String, problem: &Problem, result: &Complete) -> std::f
             index + 1,
             solution.width
         )?;
-        for (point, place) in problem.points.iter().zip(&solution.points) {
-            write!(out, "  {}", point.name)?;
-            for x in place.iter().take(problem.dimension) {
-                write!(out, "  {:>18}", certain_digits(*x))?;
-            }
-            writeln!(out)?;
-        }
+        write_digits(out, problem, &solution.points)?;
         write_objects(out, problem, Mode::Certified, &solution.objects)?;
         let account = Account {
             left_out: figure(result, index).to_vec(),
@@ -286,10 +272,7 @@ fn write_table(out: &mut String, problem: &Problem, result: &Complete) -> std::f
         writeln!(out, "\nThe first {listed} are listed.")?;
     }
     if !result.solutions.is_empty() {
-        writeln!(
-            out,
-            "\nEvery coordinate differs from the exact one by at most 1 in its last digit shown."
-        )?;
+        writeln!(out, "\n{DIGITS}")?;
     }
     write_choices(out, &result.choices)?;
     if let Some(first) = &result.first_choice {
@@ -304,18 +287,11 @@ fn write_table(out: &mut String, problem: &Problem, result: &Complete) -> std::f
         )?;
     }
     for part in &result.parts {
-        let names: Vec<&str> = part
-            .problem
-            .points
-            .iter()
-            .map(|p| p.name.as_str())
-            .collect();
-        writeln!(
-            out,
-            "\nPart {}: {}",
-            names.join(", "),
-            verdict(&part.problem, &part.result)
-        )?;
+        let (names, verdict) = (
+            all_names(&part.problem).join(", "),
+            verdict(&part.problem, &part.result),
+        );
+        writeln!(out, "\nPart {names}: {verdict}")?;
     }
     writeln!(out)?;
     match result.method {

@@ -1,5 +1,7 @@
 //! Complex solutions, as text and for programs.
 
+use super::columns::written;
+use super::drawing::names;
 use super::{JSON_VERSION, certain_digits};
 use crate::certificate::complex::{ComplexFlaw, ComplexVerdict};
 use crate::complex::infinity::{Departure, Split};
@@ -181,10 +183,7 @@ pub fn complex_to_table(
     result: &Solutions,
     all: bool,
 ) -> String {
-    let mut out = String::new();
-    // Writing to a string cannot fail.
-    let _ = write_table(&mut out, problem, lowered, result, all);
-    out
+    written(|out| write_table(out, problem, lowered, result, all))
 }
 
 /// Solutions are listed in full as long as there are no more.
@@ -379,11 +378,6 @@ fn departures(out: &mut String, problem: &Problem, result: &Solutions) -> std::f
         )?;
     }
     Ok(())
-}
-
-fn names<'a>(problem: &'a Problem, points: &[usize]) -> Vec<&'a str> {
-    let names = points.iter().map(|&p| problem.points[p].name.as_str());
-    names.collect()
 }
 
 /// The lengths around a cycle with the signs with which they add up to zero.

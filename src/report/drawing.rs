@@ -74,7 +74,7 @@ impl<'a> Drawing<'a> {
             problem: &problem.name,
             dimension: problem.dimension,
             source: &problem.source,
-            names: problem.points.iter().map(|p| p.name.as_str()).collect(),
+            names: all_names(problem),
             reference: Vec::new(),
             frame: None,
             sketch: Points(problem, sketch_of(problem)),
@@ -128,6 +128,11 @@ pub(super) fn names<'a>(problem: &'a Problem, points: &[usize]) -> Vec<&'a str> 
         .iter()
         .map(|&p| problem.points[p].name.as_str())
         .collect()
+}
+
+/// The names of all points.
+pub(super) fn all_names(problem: &Problem) -> Vec<&str> {
+    problem.points.iter().map(|p| p.name.as_str()).collect()
 }
 
 /// The sketch in the problem's own coordinates.

@@ -2,7 +2,9 @@
 
 use super::JSON_VERSION;
 use super::certain_digits;
+use super::columns::{self, DIGITS, written};
 use super::drawing::{Drawing, names};
+use super::json::{Coordinate, Points};
 use super::objects::joints_to_value;
 use super::table::write_joints;
 use crate::blocks::{Account, Why, rounded_up};
@@ -63,11 +65,7 @@ pub fn alone_to_value(found: &[Alone]) -> Value {
 
 /// The names of points, as people read them: `a, b and c`.
 pub(super) fn named(problem: &Problem, points: &[usize]) -> String {
-    let names: Vec<&str> = points
-        .iter()
-        .map(|&p| problem.points[p].name.as_str())
-        .collect();
-    match names.as_slice() {
+    match names(problem, points).as_slice() {
         [] => String::new(),
         [one] => (*one).to_owned(),
         [first @ .., last] => format!("{} and {last}", first.join(", ")),
@@ -270,10 +268,8 @@ pub(super) fn short(x: Interval) -> String {
 /// An edit as a text of several lines: how it ended, the figure, what became of orientations, numbers of the
 /// run. `moved`: how far the sketch was from the old figure.
 pub fn edit_to_table(problem: &Problem, edited: &Edited, moved: Moved) -> String {
-    let mut out = format!("{}: {}\n", problem.name, edit_in_words(problem, edited));
-    // Writing to a string cannot fail.
-    let _ = write_edit(&mut out, problem, edited, moved);
-    out
+    let heading = format!("{}: {}\n", problem.name, edit_in_words(problem, edited));
+    heading + &written(|out| write_edit(out, problem, edited, moved))
 }
 
 /// How far the sketch was led before, if it was.
@@ -312,10 +308,7 @@ fn write_edit(
     writeln!(out, "\n{what}")?;
     write_points(out, problem, &edited.points)?;
     write_numbers(out, problem, &edited.objects)?;
-    writeln!(
-        out,
-        "\nEvery coordinate differs from the exact one by at most 1 in its last digit shown."
-    )?;
+    writeln!(out, "\n{DIGITS}")?;
 
     let orientations = &edited.orientations;
     let what = if problem.dimension == 2 {
@@ -377,34 +370,7 @@ pub(super) fn write_points(
     problem: &Problem,
     points: &[[Interval; 3]],
 ) -> std::fmt::Result {
-    let d = problem.dimension;
-    let rows: Vec<Vec<String>> = points
-        .iter()
-        .map(|p| p.iter().take(d).map(|x| certain_digits(*x)).collect())
-        .collect();
-    let before = |text: &str| text.find('.').unwrap_or(text.len());
-    let width = |axis: usize, part: &dyn Fn(&str) -> usize| {
-        rows.iter().map(|row| part(&row[axis])).max().unwrap_or(0)
-    };
-    let columns: Vec<(usize, usize)> = (0..d)
-        .map(|axis| {
-            (
-                width(axis, &before),
-                width(axis, &|text| text.len() - before(text)),
-            )
-        })
-        .collect();
-    let names = problem.points.iter().map(|p| p.name.chars().count());
-    let names = names.max().unwrap_or(0);
-    for (point, row) in problem.points.iter().zip(&rows) {
-        let mut line = format!("  {:<names$}", point.name);
-        for (text, &(left, right)) in row.iter().zip(&columns) {
-            let at = before(text);
-            write!(line, "  {:>left$}{:<right$}", &text[..at], &text[at..])?;
-        }
-        writeln!(out, "{}", line.trim_end())?;
-    }
-    Ok(())
+    columns::write_points(out, problem, points, |x| certain_digits(*x))
 }
 
 /// An edit as one line of JSON (docs/using/programs.md):
@@ -533,18 +499,12 @@ pub fn figure_to_value(session: &Session) -> Value {
 
 /// A map from names to pairs of bounds.
 pub(super) fn points_to_value(problem: &Problem, points: &[[Interval; 3]]) -> Value {
-    let d = problem.dimension;
-    let points = problem.points.iter().zip(points);
-    let points = points.map(|(point, place)| {
-        let place = place[..d].iter().map(|x| bounds(*x));
-        (point.name.clone(), place.collect::<Vec<_>>().into())
-    });
-    Value::Object(points.collect())
+    json!(Points(problem, points.to_vec()))
 }
 
-/// Adding zero turns -0, which intervals use as a lower bound, into 0.
+/// A pair of bounds.
 pub(super) fn bounds(x: Interval) -> Value {
-    json!([x.inf() + 0.0, x.sup() + 0.0])
+    json!(x.written())
 }
 
 /// What a claim about a figure was proved of, as lines under its table; none where that is the figure as it is.

@@ -1,6 +1,6 @@
 //! What came of exploring, for people and for programs.
 
-use super::certain_digits;
+use super::columns::{DIGITS, write_digits, written};
 use super::drawing::Drawing;
 use super::json::{Points, WrittenFold, WrittenSample, written_folds, written_samples};
 use crate::explore::{Class, End, Explorer, Finish, PathRecord, intervals};
@@ -185,10 +185,7 @@ fn is_flat(problem: &Problem, class: &Class) -> bool {
 
 /// The result as a text of several lines; with the coordinates of all solutions where they are wanted.
 pub fn explore_to_table(explored: &Explored, coordinates: bool) -> String {
-    let mut out = String::new();
-    // Writing to a string cannot fail.
-    let _ = write_table(&mut out, explored, coordinates);
-    out
+    written(|out| write_table(out, explored, coordinates))
 }
 
 fn write_table(out: &mut String, explored: &Explored, coordinates: bool) -> std::fmt::Result {
@@ -298,18 +295,9 @@ fn write_table(out: &mut String, explored: &Explored, coordinates: bool) -> std:
     if coordinates {
         for class in &contents.classes {
             writeln!(out, "\nSolution {}", class.id + 1)?;
-            for (point, place) in problem.points.iter().zip(intervals(&class.points)) {
-                write!(out, "  {}", point.name)?;
-                for x in place.iter().take(problem.dimension) {
-                    write!(out, "  {:>18}", certain_digits(*x))?;
-                }
-                writeln!(out)?;
-            }
+            write_digits(out, problem, &intervals(&class.points))?;
         }
-        writeln!(
-            out,
-            "\nEvery coordinate differs from the exact one by at most 1 in its last digit shown."
-        )?;
+        writeln!(out, "\n{DIGITS}")?;
     }
     Ok(())
 }

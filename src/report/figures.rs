@@ -1,11 +1,12 @@
 //! The figures of a sketch in its own frame, as its blocks give them.
 
+use super::columns::{DIGITS, written};
 use super::drawing::Drawing;
 use super::edit::{bounds, numbers_to_value, points_to_value, write_numbers, write_points};
 use super::objects::joints_to_value;
 use super::supposed::supposed;
 use crate::blocks::{BlockAccount, Chosen, Comparison, Figures, First, Sense, Way};
-use crate::problem::Shape;
+use crate::problem::{Shape, counted, list};
 use serde_json::{Value, json};
 use std::fmt::Write;
 
@@ -131,7 +132,7 @@ fn provided(figures: &Figures) -> String {
     match held.len() {
         0 => {}
         1 => with.push(format!("{} held where it is drawn", held[0])),
-        _ => with.push(format!("{} held where they are drawn", list(&held))),
+        _ => with.push(format!("{} held where they are drawn", list(&held, LISTED))),
     }
     if figures.keeps_directions() {
         with.push("distances along an axis, and lengths of lines along one, in the direction that they have in the sketch".to_owned());
@@ -194,15 +195,11 @@ fn followed(figures: &Figures) -> String {
 
 /// The figures as a text of several lines, the first ones or all.
 pub fn figures_to_table(figures: &Figures, listed: Listed) -> String {
-    let mut out = format!(
-        "{}: {}\n",
-        figures.problem().name,
-        figures_in_words(figures)
-    );
-    // Writing to a string cannot fail.
-    let _ = write_figures(&mut out, figures, listed);
-    let _ = write_blocks(&mut out, figures);
-    out
+    figures_to_summary(figures)
+        + &written(|out| {
+            write_figures(out, figures, listed)?;
+            write_blocks(out, figures)
+        })
 }
 
 /// What is said of the figure nearest to the sketch of those with all its senses, or that there is none.
@@ -276,10 +273,7 @@ fn write_figures(out: &mut String, figures: &Figures, listed: Listed) -> std::fm
         )?;
     }
     if count > 0 {
-        writeln!(
-            out,
-            "\nEvery coordinate differs from the exact one by at most 1 in its last digit shown."
-        )?;
+        writeln!(out, "\n{DIGITS}")?;
     }
     Ok(())
 }
@@ -310,7 +304,7 @@ fn write_senses(out: &mut String, figures: &Figures, number: u64) -> std::fmt::R
     ] {
         let names = named(senses, &compared, how);
         if !names.is_empty() {
-            writeln!(out, "  {what}: {}", list(&names))?;
+            writeln!(out, "  {what}: {}", list(&names, LISTED))?;
         }
     }
     Ok(())
@@ -331,14 +325,13 @@ fn write_blocks(out: &mut String, figures: &Figures) -> std::fmt::Result {
     }
     let held = figures.account().names_held();
     if !held.is_empty() {
-        writeln!(out, "free, held as drawn: {}", list(&held))?;
+        writeln!(out, "free, held as drawn: {}", list(&held, LISTED))?;
     }
     Ok(())
 }
 
 /// `2 unknowns: x of d, y of d: by formula, 2 solutions`.
 fn block_in_words(account: &BlockAccount) -> String {
-    let counted = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
     let (low, high) = account.solutions;
     let solutions = match low == high {
         true => counted(high, "solution"),
@@ -357,7 +350,7 @@ fn block_in_words(account: &BlockAccount) -> String {
     format!(
         "{}: {}: {way}, {solutions}{runs}{doubt}",
         counted(account.unknowns.len(), "unknown"),
-        list(&account.unknowns)
+        list(&account.unknowns, LISTED)
     )
 }
 
@@ -370,14 +363,6 @@ fn chosen_in_words(chosen: &[Chosen]) -> String {
     match each.is_empty() {
         true => String::new(),
         false => format!(": {}", each.join(", ")),
-    }
-}
-
-fn list(names: &[String]) -> String {
-    let shown = names[..names.len().min(LISTED)].join(", ");
-    match names.len().checked_sub(LISTED) {
-        Some(more) if more > 0 => format!("{shown} and {more} more"),
-        _ => shown,
     }
 }
 

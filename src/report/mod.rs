@@ -2,6 +2,7 @@
 
 #[cfg(feature = "cli")]
 mod blocks;
+mod columns;
 mod comparison;
 mod complete;
 mod complex;

@@ -1,7 +1,8 @@
 //! Motions, for people and for programs.
 
 use super::certain_digits;
-use super::drawing::Drawing;
+use super::columns::Grid;
+use super::drawing::{Drawing, names};
 use super::edit::{bounds, points_to_value};
 use super::measured::Measures;
 use super::sweep::frames_to_csv;
@@ -51,11 +52,7 @@ pub fn motion_to_table(motion: &Motion) -> String {
     for (which, end) in ["One way", "The other way"].iter().zip(&motion.ends) {
         let _ = writeln!(out, "  {which}: {}.", end_in_words(end));
     }
-    let standing = motion
-        .standing
-        .iter()
-        .map(|&p| motion.problem.points[p].name.as_str());
-    let standing: Vec<&str> = standing.collect();
+    let standing = names(&motion.problem, &motion.standing);
     if !standing.is_empty() {
         let _ = writeln!(
             out,
@@ -67,26 +64,15 @@ pub fn motion_to_table(motion: &Motion) -> String {
         true => "Over the whole loop",
         false => "As far as it was followed",
     };
-    let rows: Vec<[String; 4]> = motion.measured.iter().map(cells).collect();
-    if rows.is_empty() {
+    if motion.measured.is_empty() {
         return out;
     }
-    let headings = [heading, "at first", "least", "greatest"];
-    let width = |k: usize| {
-        let cells = rows.iter().map(|row| row[k].chars().count());
-        cells.chain([headings[k].len()]).max().unwrap_or(0)
-    };
-    let widths = [0, 1, 2, 3].map(width);
-    let _ = writeln!(out);
-    for row in
-        std::iter::once(headings).chain(rows.iter().map(|row| row.each_ref().map(String::as_str)))
-    {
-        let cells = row.iter().zip(widths);
-        let padded: Vec<String> = cells
-            .map(|(cell, width)| format!("{cell:<width$}"))
-            .collect();
-        let _ = writeln!(out, "  {}", padded.join("  ").trim_end());
+    let mut grid = Grid::new([heading, "at first", "least", "greatest"], |_| true);
+    for measured in &motion.measured {
+        grid.push(cells(measured));
     }
+    out += "\n";
+    out += &grid.render();
     let _ = writeln!(
         out,
         "\nNo figure of the way is beyond these values, and one reaches each, proved{}; they differ from the exact ones by at most 1 in the \
@@ -174,7 +160,7 @@ pub fn motion_to_value(motion: &Motion) -> Value {
         "driver": motion.driver.map(|p| &problem.points[p].name),
         "status": status,
         "words": motion_in_words(motion),
-        "standing": motion.standing.iter().map(|&p| &problem.points[p].name).collect::<Vec<_>>(),
+        "standing": names(problem, &motion.standing),
         "tubes": motion.tubes,
         "moved": motion.moved,
         "account": motion.account,

@@ -1,6 +1,7 @@
 //! Ranges and sweeps, for people and for programs.
 
 use super::certain_digits;
+use super::columns::{Grid, written};
 use super::drawing::{Drawing, names};
 use super::edit::{
     bounds, edit_in_words, edit_to_value, limit_in_words, points_to_value, short, write_moved,
@@ -9,20 +10,17 @@ use super::measured::{Measures, Placed};
 use super::objects::joints_to_value;
 use crate::edit::{Edited, End, Ending, Moved, Range, Sweep};
 use crate::interval::Interval;
-use crate::places::{Each as _, array};
 use crate::problem::Problem;
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
 
 /// The ranges of dimensions as a table.
 pub fn ranges_to_table(problem: &Problem, ranges: &[Range], moved: Moved) -> String {
-    let mut out = format!(
+    let heading = format!(
         "{}: how far each dimension can go alone, all others standing still\n",
         problem.name
     );
-    // Writing to a string cannot fail.
-    let _ = write_ranges(&mut out, problem, ranges, moved);
-    out
+    heading + &written(|out| write_ranges(out, problem, ranges, moved))
 }
 
 fn write_ranges(
@@ -45,33 +43,16 @@ fn write_ranges(
         all
     });
     let account = account.as_ref();
-    let cells = |range: &Range| {
-        [
+    let mut grid = Grid::new(["dimension", "is", "shrinks to", "grows to"], |_| true);
+    for range in ranges {
+        grid.push([
             problem.dimension_name(range.index),
             short(range.value),
             value_of(&range.low, "≤"),
             value_of(&range.high, "≥"),
-        ]
-    };
-    let rows: Vec<[String; 4]> = ranges.iter().map(cells).collect();
-    let headings = ["dimension", "is", "shrinks to", "grows to"];
-    let width = |k: usize| {
-        let cells = rows.iter().map(|row| row[k].chars().count());
-        cells.chain([headings[k].len()]).max().unwrap_or(0)
-    };
-    let widths: [usize; 4] = array(width);
-    let line = |cells: [&str; 4]| {
-        let padded: Vec<String> = cells
-            .iter()
-            .zip(widths)
-            .map(|(cell, width)| format!("{cell:<width$}"))
-            .collect();
-        padded.join("  ").trim_end().to_owned()
-    };
-    writeln!(out, "  {}", line(headings))?;
-    for row in &rows {
-        writeln!(out, "  {}", line(row.each_ref().each(String::as_str)))?;
+        ]);
     }
+    *out += &grid.render();
     let scope = account.map_or(String::new(), |account| after(account.scope()));
     let left_out = account.map_or(String::new(), |account| match account.left_out_in_words() {
         words if words.is_empty() => words,

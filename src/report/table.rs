@@ -1,7 +1,9 @@
 //! Results for people.
 
 use super::certain_digits;
+use super::columns::{DIGITS, write_points, written};
 use super::complete::tested_in_words;
+use super::drawing::names;
 use super::marks::Marks;
 use crate::complete::Tested;
 use crate::constraint::{Symmetry, symmetry};
@@ -104,10 +106,7 @@ pub fn to_no_first(problem: &Problem, turns_at: Option<(f64, f64)>) -> String {
 type Ran<'a> = (&'a Outcome, Option<&'a Tested>);
 
 fn table(problem: &Problem, ran: Ran, most: usize) -> String {
-    let mut out = String::new();
-    // Writing to a string cannot fail.
-    let _ = write_table(&mut out, problem, ran, most);
-    out
+    written(|out| write_table(out, problem, ran, most))
 }
 
 fn write_table(out: &mut String, problem: &Problem, ran: Ran, most: usize) -> fmt::Result {
@@ -138,10 +137,7 @@ fn write_table(out: &mut String, problem: &Problem, ran: Ran, most: usize) -> fm
         )?;
     }
     if outcome.mode == Mode::Certified && !outcome.solutions.is_empty() {
-        writeln!(
-            out,
-            "\nEvery coordinate differs from the exact one by at most 1 in its last digit shown."
-        )?;
+        writeln!(out, "\n{DIGITS}")?;
     }
     writeln!(out)?;
     for (label, value) in numbers(outcome) {
@@ -363,12 +359,8 @@ fn write_marks(
         _ => "tetrahedra",
     };
     let named = |sets: &[&[usize]]| {
-        let names = |set: &&[usize]| {
-            let names = set.iter().map(|&p| problem.points[p].name.as_str());
-            names.collect::<Vec<_>>().join(" ")
-        };
-        let all: Vec<String> = sets.iter().map(names).collect();
-        list(&all, TURNED)
+        let all = sets.iter().map(|set| names(problem, set).join(" "));
+        list(&all.collect::<Vec<_>>(), TURNED)
     };
     match (turned.len(), flat.len()) {
         _ if all == 0 => {}
@@ -417,46 +409,8 @@ fn write_solution(
         Mode::Float => writeln!(out)?,
     }
     write_marks(out, problem, outcome, marks, solution)?;
-    let rows: Vec<Vec<String>> = solution
-        .points
-        .iter()
-        .map(|point| {
-            let coordinates = point.iter().take(problem.dimension);
-            coordinates
-                .map(|x| match outcome.mode {
-                    Mode::Certified => certain_digits(*x),
-                    Mode::Float => float_digits(x.mid()),
-                })
-                .collect()
-        })
-        .collect();
-    // Columns are aligned at the point.
-    let before = |text: &str| text.find('.').unwrap_or(text.len());
-    let width_of = |axis: usize, part: &dyn Fn(&str) -> usize| {
-        rows.iter().map(|row| part(&row[axis])).max().unwrap_or(0)
-    };
-    let columns: Vec<(usize, usize)> = (0..problem.dimension)
-        .map(|axis| {
-            (
-                width_of(axis, &before),
-                width_of(axis, &|text| text.len() - before(text)),
-            )
-        })
-        .collect();
-    let names = problem
-        .points
-        .iter()
-        .map(|p| p.name.chars().count())
-        .max()
-        .unwrap_or(0);
-    for (point, row) in problem.points.iter().zip(&rows) {
-        let mut line = format!("  {:<names$}", point.name);
-        for (text, &(left, right)) in row.iter().zip(&columns) {
-            let at = before(text);
-            write!(line, "  {:>left$}{:<right$}", &text[..at], &text[at..])?;
-        }
-        writeln!(out, "{}", line.trim_end())?;
-    }
+    let digits = |x: &Interval| digits(outcome.mode, x);
+    write_points(out, problem, &solution.points, digits)?;
     write_objects(out, problem, outcome.mode, &solution.objects)
 }
 
@@ -467,10 +421,7 @@ pub(super) fn write_objects(
     mode: Mode,
     objects: &[Located],
 ) -> fmt::Result {
-    let digits = |x: &Interval| match mode {
-        Mode::Certified => certain_digits(*x),
-        Mode::Float => float_digits(x.mid()),
-    };
+    let digits = |x: &Interval| digits(mode, x);
     let place = |x: &[Interval; 3]| in_brackets(&x[..problem.dimension], &digits);
     for (object, at) in problem.objects.iter().zip(objects) {
         let name = &object.name;
@@ -545,6 +496,14 @@ pub(super) fn write_joints(
         }
     }
     Ok(())
+}
+
+/// The digits of a number that a mode is certain of.
+fn digits(mode: Mode, x: &Interval) -> String {
+    match mode {
+        Mode::Certified => certain_digits(*x),
+        Mode::Float => float_digits(x.mid()),
+    }
 }
 
 /// Twelve digits, which float mode usually has.

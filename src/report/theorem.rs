@@ -1,6 +1,7 @@
 //! What a certificate proves, in words.
 
 use super::certain_digits;
+use super::columns::written;
 use crate::certificate::{Outcome, Verdict};
 use crate::constraint::{Symmetry, symmetry};
 use crate::interval::{Interval, point};
@@ -10,10 +11,7 @@ use std::time::Duration;
 
 /// The theorem that was checked, or the claim that failed, with the numbers of the check.
 pub fn theorem(verdict: &Verdict, time: Duration) -> String {
-    let mut out = String::new();
-    // Writing to a string cannot fail.
-    let _ = write_theorem(&mut out, verdict, time);
-    out
+    written(|out| write_theorem(out, verdict, time))
 }
 
 fn write_theorem(out: &mut String, verdict: &Verdict, time: Duration) -> std::fmt::Result {

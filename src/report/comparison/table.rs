@@ -2,6 +2,7 @@
 
 use super::{Compared, earlier, faults, status, switched_on};
 use crate::compare::{Knob, Row, Verdict, Way};
+use crate::report::columns::Grid;
 use crate::track::Status;
 use std::fmt::Write;
 
@@ -25,7 +26,7 @@ pub fn comparison_to_table(compared: &Compared) -> String {
     if beside {
         heading.push("published: steps, ms, solutions");
     }
-    let mut grid = Grid::new(&heading, &[0, 1, 7]);
+    let mut grid = Grid::new(heading, |c| [0, 1, 7].contains(&c));
     let mut remarks = Vec::new();
     for row in &comparison.rows {
         let mut cells = vec![row.way.method.name().into(), row.way.space.name().into()];
@@ -96,7 +97,7 @@ pub fn comparison_to_table(compared: &Compared) -> String {
         }
         grid.push(cells);
     }
-    out += &grid.render("  ");
+    out += &grid.render();
     if comparison.reference_is_arc() {
         remarks.push(
             "The certified run ended open: what the others list is judged by the solutions on the arc that it proved."
@@ -144,7 +145,7 @@ fn sweep(compared: &Compared) -> String {
         "box widths",
         "verdict",
     ];
-    let mut grid = Grid::new(&heading, &[0, 1, 2, 9]);
+    let mut grid = Grid::new(heading, |c| [0, 1, 2, 9].contains(&c));
     for row in &comparison.sweep {
         let Some(setting) = row.setting else { continue };
         let mut cells = vec![
@@ -182,7 +183,7 @@ fn sweep(compared: &Compared) -> String {
         });
         grid.push(cells);
     }
-    out += &grid.render("  ");
+    out += &grid.render();
     for way in Way::all() {
         let settings = comparison.sweep.iter().filter(|row| row.way == way);
         let switched = settings.clone().filter(|row| !switched_on(row).is_empty());
@@ -221,47 +222,4 @@ fn milliseconds(seconds: f64) -> String {
 
 fn number(x: Option<f64>, decimals: usize) -> String {
     x.map_or("-".into(), |x| format!("{x:.decimals$}"))
-}
-
-/// Cells in columns.
-struct Grid {
-    rows: Vec<Vec<String>>,
-    /// Columns that begin at the left; the others end at the right.
-    left: Vec<usize>,
-}
-
-impl Grid {
-    fn new(heading: &[&str], left: &[usize]) -> Self {
-        Grid {
-            rows: vec![heading.iter().map(|&cell| cell.to_owned()).collect()],
-            left: left.to_vec(),
-        }
-    }
-
-    fn push(&mut self, row: Vec<String>) {
-        self.rows.push(row);
-    }
-
-    fn render(&self, indent: &str) -> String {
-        let columns = self.rows[0].len();
-        let width = |c: usize| {
-            let cells = self.rows.iter().filter_map(|row| row.get(c));
-            cells.map(|cell| cell.chars().count()).max().unwrap_or(0)
-        };
-        let widths: Vec<usize> = (0..columns).map(width).collect();
-        let mut out = String::new();
-        for row in &self.rows {
-            let cells = row.iter().zip(&widths).enumerate();
-            let cells = cells.map(|(c, (cell, &width))| {
-                if self.left.contains(&c) {
-                    format!("{cell:<width$}")
-                } else {
-                    format!("{cell:>width$}")
-                }
-            });
-            let line = cells.collect::<Vec<_>>().join("  ");
-            let _ = writeln!(out, "{indent}{}", line.trim_end());
-        }
-        out
-    }
 }

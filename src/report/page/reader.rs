@@ -5,6 +5,7 @@ use crate::interval::hull;
 use crate::interval::vector::cross;
 use crate::places::array;
 use crate::report::certain_digits;
+use crate::report::columns::DIGITS;
 use serde_json::Value;
 
 /// Why a document is no result that can be shown.
@@ -448,7 +449,6 @@ impl<'a> Reader<'a> {
 
     /// The coordinates in which digits are stated, and what the digits are worth.
     pub fn proved_digits(&self) -> String {
-        self.gauge()
-            + " Every coordinate differs from the exact one by at most 1 in its last digit shown."
+        format!("{} {DIGITS}", self.gauge())
     }
 }
