@@ -93,10 +93,7 @@ pub fn edit_in_words(problem: &Problem, edited: &Edited) -> String {
         None => String::new(),
     };
     let account = &edited.account;
-    let left_out = match account.left_out_in_words() {
-        words if words.is_empty() => words,
-        words => format!("; {words}"),
-    };
+    let left_out = behind("; ", account.left_out_in_words());
     let clause = account.clause_behind();
     if let (Ending::Reached, Some(singular)) = (&edited.ending, &edited.singular) {
         return format!(
@@ -107,10 +104,7 @@ pub fn edit_in_words(problem: &Problem, edited: &Edited) -> String {
     }
     match &edited.ending {
         Ending::Reached => {
-            let scope = match account.scope() {
-                scope if scope.is_empty() => scope,
-                scope => format!(" {scope}"),
-            };
+            let scope = behind(" ", account.scope());
             format!(
                 "Reached, proved: the figure is the one and only continuation of the old one{scope}, {changes}{left_out}."
             )
@@ -158,6 +152,14 @@ pub fn edit_in_words(problem: &Problem, edited: &Edited) -> String {
     }
 }
 
+/// A clause with what parts it from the words before, where there is one.
+pub(super) fn behind(sign: &str, clause: String) -> String {
+    match clause.is_empty() {
+        true => clause,
+        false => format!("{sign}{clause}"),
+    }
+}
+
 /// What came of dragging points.
 fn dragged_in_words(problem: &Problem, edited: &Edited, dragged: &Dragged) -> String {
     let names: Vec<usize> = dragged.places.iter().map(|(drag, _)| drag.point).collect();
@@ -197,20 +199,14 @@ fn dragged_in_words(problem: &Problem, edited: &Edited, dragged: &Dragged) -> St
                 1 => ("is", "it is"),
                 _ => ("are", "they are"),
             };
-            let scope = match account.scope() {
-                scope if scope.is_empty() => scope,
-                scope => format!(", {scope}"),
-            };
+            let scope = behind(", ", account.scope());
             format!(
                 "the figure is the one and only continuation of the old one as {} {are} led {how} to where {they} now{scope}",
                 list(&dragged.led, LISTED),
             )
         }
     };
-    let left_out = match account.left_out_in_words() {
-        words if words.is_empty() => words,
-        words => format!("; {words}"),
-    };
+    let left_out = behind("; ", account.left_out_in_words());
     format!("Dragged, proved: {place}; {led}{left_out}.{why}")
 }
 

@@ -4,7 +4,8 @@ use super::certain_digits;
 use super::columns::{Grid, written};
 use super::drawing::{Drawing, names};
 use super::edit::{
-    bounds, edit_in_words, edit_to_value, limit_in_words, points_to_value, short, write_moved,
+    behind, bounds, edit_in_words, edit_to_value, limit_in_words, points_to_value, short,
+    write_moved,
 };
 use super::measured::{Measures, Placed};
 use super::objects::joints_to_value;
@@ -53,7 +54,7 @@ fn write_ranges(
         ]);
     }
     *out += &grid.render();
-    let scope = account.map_or(String::new(), |account| after(account.scope()));
+    let scope = account.map_or(String::new(), |account| behind(" ", account.scope()));
     let left_out = account.map_or(String::new(), |account| match account.left_out_in_words() {
         words if words.is_empty() => words,
         words if account.meets_all() => format!(" At all these figures {words}."),
@@ -120,14 +121,6 @@ pub fn ranges_to_value(problem: &Problem, ranges: &[Range], moved: Moved) -> Val
     });
     let ranges: Map<String, Value> = ranges.collect();
     Drawing::in_place("limits", problem).with(json!({"moved": moved.distance, "ranges": ranges}))
-}
-
-/// A clause after a space, where there is one.
-fn after(clause: String) -> String {
-    match clause.is_empty() {
-        true => clause,
-        false => format!(" {clause}"),
-    }
 }
 
 /// The edit that a sweep did not get over, if there is one.

@@ -11,18 +11,10 @@ const SEEN: f64 = 0.15;
 
 pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
     let result = reader.result;
-    let mut page = reader.page()?;
-    page.figures[0].name = "In the file".into();
-    page.figures[0].note = "as it is drawn".into();
+    let mut page = reader.page("In the file", "as it is drawn")?;
     (page.badge, page.tone) = ("proved".into(), Tone::Proved);
-    let words = text(result, "words")?;
-    page.verdict = words
-        .trim_start_matches(&format!("{}: ", page.title))
-        .to_owned()
-        + ".";
-    let figure = reader
-        .figure(&result["figure"], &Value::Null)
-        .ok_or(wrong("figure"))?;
+    page.verdict = reader.words()? + ".";
+    let figure = reader.figure(&result["figure"], &Value::Null, "figure")?;
     let bands = page
         .points
         .iter()
@@ -114,7 +106,6 @@ pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
         Text::Paragraph("What it is due to, most first (to first order, in floats):".into()),
         Text::List(due),
     ];
-    page.digits = reader.proved_digits();
     Ok(page)
 }
 

@@ -8,16 +8,14 @@ use serde_json::Value;
 
 pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
     let result = reader.result;
-    let mut page = reader.page()?;
-    page.figures[0].note = "not a solution: drawn for comparison".into();
+    let mut page = reader.page("Sketch", "not a solution: drawn for comparison")?;
     for (k, solution) in list(result, "solutions")?.iter().enumerate() {
         let width = solution["width"].as_f64().ok_or(wrong("solutions"))?;
-        let figure = reader.figure(&solution["points"], &Value::Null);
         page.figures.push(Figure {
             name: format!("Solution {}", k + 1),
             note: format!("known up to {} of its size", rounded_up(width)),
             class: Some(k),
-            ..figure.ok_or(wrong("solutions"))?
+            ..reader.figure(&solution["points"], &Value::Null, "solutions")?
         });
     }
     let (badge, tone) = match text(result, "status")? {
@@ -47,6 +45,5 @@ pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
             format!("{:.4}", result["seconds"].as_f64().unwrap_or(0.0)),
         ),
     ];
-    page.digits = reader.proved_digits();
     Ok(page)
 }

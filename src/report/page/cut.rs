@@ -1,13 +1,13 @@
 //! The page of a sketch that was solved block by block in its own frame.
 
-use super::reader::{Reader, ShowError, list, text, wrong};
+use super::reader::{Reader, ShowError, choices, circles, list, strings, text, wrong};
 use super::{Figure, Page, Text, Tone};
-use serde_json::{Map, Value, json};
+use crate::problem::{counted, list as listed};
+use serde_json::Value;
 
 pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
     let result = reader.result;
-    let mut page = reader.page()?;
-    page.figures[0].note = "not a solution: drawn for comparison".into();
+    let mut page = reader.page("Sketch", "not a solution: drawn for comparison")?;
     let status = text(result, "status")?;
     (page.badge, page.tone) = match status {
         "complete" => ("proved · all there are".into(), Tone::Proved),
@@ -21,14 +21,14 @@ pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
     let figures = list(result, "figures")?;
     for found in figures {
         let number = found["number"].as_u64().ok_or(wrong("figures"))?;
-        let figure = reader.figure(&found["points"], &circles(&found["radii"]));
-        let how = [choices(&found["choices"]), senses(&found["senses"])];
+        let chosen = choices(&found["choices"]).filter(|chosen| !chosen.is_empty());
+        let how = [chosen, senses(&found["senses"])];
         let how: Vec<String> = how.into_iter().flatten().collect();
         page.figures.push(Figure {
             name: format!("Figure {}", number + 1),
             note: how.join("; "),
             class: Some(number as usize),
-            ..figure.ok_or(wrong("figures"))?
+            ..reader.figure(&found["points"], &circles(&found["radii"]), "figures")?
         });
     }
     let blocks = list(result, "blocks")?;
@@ -47,7 +47,6 @@ pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
         page.text
             .push(Text::Paragraph(format!("Why there may be more: {reason}.")));
     }
-    page.digits = reader.proved_digits();
     let shown = figures.len();
     page.rows = vec![
         ("blocks".into(), blocks.len().to_string()),
@@ -73,35 +72,12 @@ pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
     Ok(page)
 }
 
-/// Circles with their radii, as objects of a result have them.
-fn circles(radii: &Value) -> Value {
-    let radii = radii.as_object().into_iter().flatten();
-    let all = radii.map(|(name, radius)| (name.clone(), json!({"radius": radius})));
-    Value::Object(all.collect::<Map<String, Value>>())
-}
-
-/// `block 1 solution 1, block 2 solution 3`; `None` where no block has several.
-fn choices(choices: &Value) -> Option<String> {
-    let each = choices.as_array()?.iter().map(|choice| {
-        let (block, solution) = (choice["block"].as_u64()?, choice["solution"].as_u64()?);
-        Some(format!("block {} solution {}", block + 1, solution + 1))
-    });
-    let each = each.collect::<Option<Vec<_>>>()?;
-    (!each.is_empty()).then(|| each.join(", "))
-}
-
 /// How the senses of a figure stand to the sketch's.
 fn senses(senses: &Value) -> Option<String> {
     const MOST: usize = 4;
     let named = |key: &str, what: &str| -> Option<String> {
-        let names = senses[key].as_array()?.iter().filter_map(Value::as_str);
-        let names: Vec<&str> = names.collect();
-        let more = match names.len().saturating_sub(MOST) {
-            0 => String::new(),
-            more => format!(" and {more} more"),
-        };
-        let shown = names[..names.len().min(MOST)].join(", ");
-        (!names.is_empty()).then(|| format!("{what}: {shown}{more}"))
+        let names = strings(&senses[key]);
+        (!names.is_empty()).then(|| format!("{what}: {}", listed(&names, MOST)))
     };
     let all = [
         named("other", "turned the other way"),
@@ -117,8 +93,7 @@ fn senses(senses: &Value) -> Option<String> {
 
 /// `x of d, y of d: by formula, 2 solutions`.
 fn block(block: &Value) -> Option<String> {
-    let unknowns = block["unknowns"].as_array()?.iter();
-    let unknowns: Vec<&str> = unknowns.filter_map(Value::as_str).collect();
+    let unknowns = strings(&block["unknowns"]);
     let way = match block["way"].as_str()? {
         "formula" => "by formula".to_owned(),
         _ => format!("its path of {} tubes", block["tubes"]),
@@ -127,10 +102,9 @@ fn block(block: &Value) -> Option<String> {
         block["solutions"][0].as_u64()?,
         block["solutions"][1].as_u64()?,
     );
-    let solutions = match (low, high) {
-        (1, 1) => "1 solution".to_owned(),
-        _ if low == high => format!("{high} solutions"),
-        _ => format!("{low} to {high} solutions"),
+    let solutions = match low == high {
+        true => counted(high as usize, "solution"),
+        false => format!("{low} to {high} solutions"),
     };
     Some(format!("{}: {way}, {solutions}", unknowns.join(", ")))
 }

@@ -1,14 +1,11 @@
 //! The page of an edit: the figure before and after.
 
-use super::reader::{Reader, ShowError, digits, list, middle, pair, shown, text, wrong};
+use super::reader::{Reader, ShowError, circles, digits, list, middle, pair, shown, text, wrong};
 use super::{Figure, Page, Text, Tone};
-use serde_json::{Map, Value, json};
 
 pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
     let result = reader.result;
-    let mut page = reader.page()?;
-    page.figures[0].name = "Before".into();
-    page.figures[0].note = "the figure in the file".into();
+    let mut page = reader.page("Before", "the figure in the file")?;
     let status = text(result, "status")?;
     let (name, badge, tone) = match status {
         "reached" => ("After", "proved", Tone::Proved),
@@ -31,14 +28,11 @@ pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
     if !name.is_empty() {
         let new = |name: &str| Some(shown(&digits(pair(&result["dimensions"][name])?)));
         page.labels = reader.labels(new)?;
-    }
-    if !name.is_empty() {
-        let figure = reader.figure(&result["points"], &round(&result["radii"]));
         page.figures.push(Figure {
             name: name.into(),
             note: "the one and only continuation".into(),
             class: Some(0),
-            ..figure.ok_or(wrong("points"))?
+            ..reader.figure(&result["points"], &circles(&result["radii"]), "points")?
         });
     }
     page.text = vec![Text::Paragraph(
@@ -72,13 +66,5 @@ pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
             format!("{:.6}", result["seconds"].as_f64().unwrap_or(0.0)),
         ),
     ];
-    page.digits = reader.proved_digits();
     Ok(page)
-}
-
-/// Radii as objects that have one.
-fn round(radii: &Value) -> Value {
-    let radii = radii.as_object().into_iter().flatten();
-    let round = radii.map(|(name, radius)| (name.clone(), json!({ "radius": radius })));
-    Value::Object(round.collect::<Map<String, Value>>())
 }

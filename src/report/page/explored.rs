@@ -7,8 +7,8 @@ use std::collections::BTreeMap;
 
 pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
     let result = reader.result;
-    let mut page = reader.page()?;
-    page.figures[0].note = "of the problem; solutions have been found from others too".into();
+    let note = "of the problem; solutions have been found from others too";
+    let mut page = reader.page("Sketch", note)?;
     let solutions = list(result, "solutions")?;
     // Paths that are drawn, in the order in which solutions ask for them.
     let mut drawn: BTreeMap<u64, usize> = BTreeMap::new();
@@ -34,7 +34,6 @@ pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
             Some(true) => "; flat",
             _ => "",
         };
-        let figure = reader.figure(&solution["points"], &Value::Null);
         page.figures.push(Figure {
             name: format!("Solution {}", k + 1),
             note: format!("on path {id}, from {from}{bend}{flat}"),
@@ -43,7 +42,7 @@ pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
             at: solution["arc"].as_f64().filter(|_| on.is_some()),
             t: on.map(|_| 1.0),
             folds: solution["folds"].as_u64().map(|n| n as usize),
-            ..figure.ok_or(wrong("solutions"))?
+            ..reader.figure(&solution["points"], &Value::Null, "solutions")?
         });
         widths.push(path::width(reader, &solution["points"]));
     }
@@ -91,7 +90,6 @@ pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
     .filter(|(_, value)| !value.is_null())
     .map(|(label, value)| (label.to_owned(), value.to_string()))
     .collect();
-    page.digits = reader.proved_digits();
     Ok(page)
 }
 

@@ -27,7 +27,7 @@ pub use reader::ShowError;
 use serde::Serialize;
 
 /// What a page shows.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Page {
     /// The name of the problem.
     pub title: String,
@@ -60,7 +60,7 @@ pub struct Page {
 }
 
 /// What an answer is worth.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Tone {
     /// All that is said is proved.
@@ -68,6 +68,7 @@ pub enum Tone {
     /// What is said was observed in floating point, not proved.
     Observed,
     /// There is no full answer.
+    #[default]
     Stopped,
 }
 
@@ -113,7 +114,7 @@ pub struct Shape {
 }
 
 /// A figure.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Figure {
     /// The figure's name in the list.
     pub name: String,
@@ -142,7 +143,7 @@ pub struct Figure {
 }
 
 /// A path of figures.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Path {
     /// What the path is called, where there are several.
     pub name: String,
@@ -266,19 +267,11 @@ mod tests {
         let evil = "</script><script>alert(1)</script>@data@";
         let page = Page {
             title: evil.into(),
-            badge: String::new(),
-            tone: Tone::Proved,
             verdict: evil.into(),
             dimension: 2,
             points: vec![evil.into()],
-            bars: Vec::new(),
-            labels: Vec::new(),
-            shapes: Vec::new(),
-            figures: Vec::new(),
-            paths: Vec::new(),
             text: vec![Text::Paragraph(evil.into())],
-            digits: String::new(),
-            rows: Vec::new(),
+            ..Page::default()
         };
         let html = page.to_html();
         assert_eq!(html.matches("</script>").count(), 2);

@@ -7,18 +7,14 @@ use serde_json::Value;
 
 pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
     let result = reader.result;
-    let mut page = reader.page()?;
-    page.figures[0].name = "In the file".into();
-    page.figures[0].note = "as it is drawn".into();
+    let mut page = reader.page("In the file", "as it is drawn")?;
     let (badge, tone) = match text(result, "status")? {
         "closed" => ("proved · a loop", Tone::Proved),
         "open" => ("proved · between two ends", Tone::Proved),
         _ => ("proved in part", Tone::Stopped),
     };
     (page.badge, page.tone) = (badge.into(), tone);
-    let words = text(result, "words")?;
-    let own_name = format!("{}: ", page.title);
-    page.verdict = words.trim_start_matches(&own_name).to_owned();
+    page.verdict = reader.words()?;
     let names = list(result, "driver")?.iter().map(|name| {
         let name = name.as_str()?;
         page.points.iter().position(|point| point == name)
@@ -30,8 +26,7 @@ pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
     let name = format!("{}-{}", page.points[a], page.points[b]);
     let mut samples: Vec<Sample> = Vec::new();
     for frame in list(result, "frames")? {
-        let figure = reader.figure(&frame["points"], &Value::Null);
-        let figure = figure.ok_or(wrong("frames"))?;
+        let figure = reader.figure(&frame["points"], &Value::Null, "frames")?;
         let square = |k: usize| (figure.points[3 * a + k] - figure.points[3 * b + k]).powi(2);
         samples.push(Sample {
             at: samples.last().map_or(0.0, |last: &Sample| {
@@ -52,12 +47,11 @@ pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
                 continue;
             }
             let value = digits(pair(&end["value"]).ok_or(wrong("measured"))?);
-            let figure = reader.figure(&end["points"], &Value::Null);
             page.figures.push(Figure {
                 name: format!("{name} = {value}"),
                 note: format!("the {which}"),
                 class: Some(1 + usize::from(which == "greatest")),
-                ..figure.ok_or(wrong("measured"))?
+                ..reader.figure(&end["points"], &Value::Null, "measured")?
             });
             ends.push(value);
         }
@@ -71,18 +65,13 @@ pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
         Text::Paragraph("Between which bounds it stays, proved:".into()),
         Text::List(ranges),
     ];
-    page.digits = reader.proved_digits();
     if samples.len() > 1 {
         page.paths.push(Path {
-            name: String::new(),
             along: "how far the points move".into(),
             legend: format!("How {name} changes as the figure moves."),
             parameter: name,
-            levels: Vec::new(),
             samples,
-            marks: Vec::new(),
-            accuracy: None,
-            has_own_sketch: false,
+            ..Path::default()
         });
     }
     Ok(page)

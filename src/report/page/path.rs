@@ -46,7 +46,6 @@ pub(super) fn read(reader: &Reader, document: &Value) -> Result<Option<Path>, Sh
         });
     }
     Ok(Some(Path {
-        name: String::new(),
         parameter: "t".into(),
         along: "length of the path".into(),
         legend: "The curve is t along the path: 0 at the sketch, 1 where the dimensions are met. \
@@ -68,7 +67,7 @@ pub(super) fn read(reader: &Reader, document: &Value) -> Result<Option<Path>, Sh
         }),
         samples,
         marks,
-        has_own_sketch: false,
+        ..Path::default()
     }))
 }
 

@@ -1,6 +1,6 @@
 //! The page of `limits`: the figures at both ends of every dimension's range.
 
-use super::reader::{Reader, ShowError, digits, middle, pair, text, wrong};
+use super::reader::{Reader, ShowError, digits, middle, pair, strings, text, wrong};
 use super::{Figure, Page, Text, Tone};
 use crate::blocks::rounded_up;
 use crate::order::InOrder;
@@ -8,9 +8,7 @@ use serde_json::Value;
 
 pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
     let result = reader.result;
-    let mut page = reader.page()?;
-    page.figures[0].name = "In the file".into();
-    page.figures[0].note = "all dimensions as they are".into();
+    let mut page = reader.page("In the file", "all dimensions as they are")?;
     page.verdict = "How far each dimension can go alone, all others standing still.".into();
     let moved = result["moved"].as_f64().ok_or(wrong("moved"))?;
     if moved > 0.0 {
@@ -47,7 +45,6 @@ pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
                 digits(value),
                 text(end, "words")?
             ));
-            let figure = reader.figure(&end["points"], &Value::Null);
             page.figures.push(Figure {
                 name: format!("{name} = {}", near(middle(value))),
                 note: format!(
@@ -56,7 +53,7 @@ pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
                 ),
                 // No two of them are congruent.
                 class: Some(page.figures.len() - 1),
-                ..figure.ok_or(wrong("ranges"))?
+                ..reader.figure(&end["points"], &Value::Null, "ranges")?
             });
         }
         let value = pair(&range["value"]).ok_or(wrong("ranges"))?;
@@ -79,7 +76,6 @@ pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
     if !words.is_empty() {
         page.text.push(Text::List(words));
     }
-    page.digits = reader.proved_digits();
     Ok(page)
 }
 
@@ -90,10 +86,10 @@ fn near(x: f64) -> String {
 
 /// What is special about the figure at a limit, in few words.
 fn special(reader: &Reader, flat: &Value) -> String {
-    let Some(points) = flat[0].as_array() else {
+    if !flat[0].is_array() {
         return String::new();
-    };
-    let names: Vec<&str> = points.iter().filter_map(Value::as_str).collect();
+    }
+    let names = strings(&flat[0]);
     let place = match reader.dimension {
         2 => "on one line",
         _ => "in one plane",

@@ -1,12 +1,12 @@
 //! What results of all verbs with figures have in common, read from their JSON (docs/using/programs.md).
 
-use super::{Bar, Figure, Label, Page, Shape, Tone, outlines};
+use super::{Bar, Figure, Label, Page, Shape, outlines};
 use crate::interval::hull;
 use crate::interval::vector::cross;
 use crate::places::array;
 use crate::report::certain_digits;
 use crate::report::columns::DIGITS;
-use serde_json::Value;
+use serde_json::{Value, json};
 
 /// Why a document is no result that can be shown.
 #[derive(Clone, PartialEq, thiserror::Error)]
@@ -39,6 +39,33 @@ pub(super) fn text<'a>(value: &'a Value, key: &'static str) -> Result<&'a str, S
 
 pub(super) fn list<'a>(value: &'a Value, key: &'static str) -> Result<&'a Vec<Value>, ShowError> {
     value[key].as_array().ok_or(wrong(key))
+}
+
+/// The texts of a list.
+pub(super) fn strings(list: &Value) -> Vec<&str> {
+    let list = list.as_array().into_iter().flatten();
+    list.filter_map(Value::as_str).collect()
+}
+
+/// Circles with their radii, as objects of a result have them.
+pub(super) fn circles(radii: &Value) -> Value {
+    let radii = radii.as_object().into_iter().flatten();
+    let all = radii.map(|(name, radius)| (name.clone(), json!({"radius": radius})));
+    Value::Object(all.collect())
+}
+
+/// `block 1 solution 1, block 2 solution 3 mirrored`.
+pub(super) fn choices(choices: &Value) -> Option<String> {
+    let each = choices.as_array()?.iter().map(|choice| {
+        let mirrored = match choice["mirrored"].as_bool() {
+            Some(true) => " mirrored",
+            _ => "",
+        };
+        let (block, solution) = (choice["block"].as_u64()?, choice["solution"].as_u64()?);
+        let (block, solution) = (block + 1, solution + 1);
+        Some(format!("block {block} solution {solution}{mirrored}"))
+    });
+    Some(each.collect::<Option<Vec<_>>>()?.join(", "))
 }
 
 /// Numbers, in the first places of three.
@@ -143,23 +170,22 @@ impl<'a> Reader<'a> {
         })
     }
 
-    /// A page with the sketch and what holds it together, and nothing else yet.
-    pub fn page(&self) -> Result<Page, ShowError> {
+    /// A page with the sketch, under a name and with a note, and what holds it together. Digits are taken to be proved.
+    pub fn page(&self, name: &str, note: &str) -> Result<Page, ShowError> {
         Ok(Page {
             title: text(self.result, "problem")?.to_owned(),
-            badge: String::new(),
-            tone: Tone::Stopped,
-            verdict: String::new(),
             dimension: self.dimension,
             points: self.names.clone(),
             bars: self.bars()?,
             labels: self.labels(|_| None)?,
             shapes: self.shapes(),
-            figures: vec![self.sketch()?],
-            paths: Vec::new(),
-            text: Vec::new(),
-            digits: String::new(),
-            rows: Vec::new(),
+            figures: vec![Figure {
+                name: name.into(),
+                note: note.into(),
+                ..self.sketch()?
+            }],
+            digits: format!("{} {DIGITS}", self.gauge()),
+            ..Page::default()
         })
     }
 
@@ -173,11 +199,23 @@ impl<'a> Reader<'a> {
         array(|k| (0..3).map(|axis| self.axes[axis][k] * v[axis]).sum())
     }
 
-    /// A figure with bounds of its coordinates, seen as results are, as a solution without a name yet. `None`: it is none.
-    pub fn figure(&self, points: &Value, objects: &Value) -> Option<Figure> {
+    /// The words of a result without the name of its problem before them.
+    pub fn words(&self) -> Result<String, ShowError> {
+        let name = format!("{}: ", text(self.result, "problem")?);
+        let words = text(self.result, "words")?;
+        Ok(words.trim_start_matches(&name).to_owned())
+    }
+
+    /// A figure with bounds of its coordinates, seen as results are, as a solution without a name yet; `key`: where it stands.
+    pub fn figure(
+        &self,
+        points: &Value,
+        objects: &Value,
+        key: &'static str,
+    ) -> Result<Figure, ShowError> {
         let (mut places, mut read) = (Vec::new(), Vec::new());
         for name in &self.names {
-            let bounds = bounds(points.get(name)?, self.dimension)?;
+            let bounds = bounds(&points[name.as_str()], self.dimension).ok_or(wrong(key))?;
             let mut at = [0.0; 3];
             for (at, &bounds) in at.iter_mut().zip(&bounds) {
                 *at = middle(bounds);
@@ -185,18 +223,12 @@ impl<'a> Reader<'a> {
             places.extend(self.there(at));
             read.push(bounds.into_iter().map(digits).collect());
         }
-        Some(Figure {
-            name: String::new(),
-            note: String::new(),
+        Ok(Figure {
             kind: "solution",
-            class: None,
-            path: None,
-            at: None,
-            t: None,
-            folds: None,
             outlines: self.seen(&places, objects),
             points: places,
             digits: Some(read),
+            ..Figure::default()
         })
     }
 
@@ -220,17 +252,10 @@ impl<'a> Reader<'a> {
         let as_is = |p: [f64; 3]| p;
         let outlines = self.outlines(&points, &self.result["sketch_objects"], as_is, as_is);
         Ok(Figure {
-            name: "Sketch".into(),
-            note: String::new(),
             kind: "sketch",
-            class: None,
-            path: None,
-            at: None,
-            t: None,
-            folds: None,
             points,
             outlines,
-            digits: None,
+            ..Figure::default()
         })
     }
 
@@ -338,7 +363,7 @@ impl<'a> Reader<'a> {
                 "radii" => format!("r {value}"),
                 "diameters" => format!("⌀ {value}"),
                 _ => {
-                    let names: Vec<&str> = items.iter().filter_map(Value::as_str).collect();
+                    let names = strings(&constraint["items"]);
                     let what = if kind == "distances" { "" } else { kind };
                     format!("{what} {} {value}", names.join("–"))
                         .trim_start()
@@ -432,23 +457,12 @@ impl<'a> Reader<'a> {
 
     /// The coordinates in which digits are stated, in words.
     pub fn gauge(&self) -> String {
-        let names: Vec<&str> = self.result["reference"]
-            .as_array()
-            .into_iter()
-            .flatten()
-            .filter_map(Value::as_str)
-            .collect();
-        match names[..] {
+        match strings(&self.result["reference"])[..] {
             [a, b] => format!("In coordinates with {a} at the origin and {b} on the x axis."),
             [a, b, c] => format!(
                 "In coordinates with {a} at the origin, {b} on the x axis and {c} in the xy plane."
             ),
             _ => "In the coordinates of the file.".to_owned(),
         }
-    }
-
-    /// The coordinates in which digits are stated, and what the digits are worth.
-    pub fn proved_digits(&self) -> String {
-        format!("{} {DIGITS}", self.gauge())
     }
 }

@@ -1,12 +1,12 @@
 //! The page of a result of `solve`: the path through the sketch, and the solutions on it; or what came of blocks.
 
-use super::reader::{Reader, ShowError, list, text, wrong};
+use super::reader::{Reader, ShowError, choices, list, strings, text, wrong};
 use super::{Figure, Page, Text, Tone, path};
 use serde_json::Value;
 
 pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
     let result = reader.result;
-    let mut page = reader.page()?;
+    let mut page = reader.page("Sketch", "where the path begins, t = 0")?;
     let mode = text(result, "mode")?;
     let closed = text(result, "status")? == "closed";
     let open = text(result, "status")? == "open";
@@ -24,7 +24,6 @@ pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
     page.verdict = text(result, "verdict")?.to_owned();
     page.paths.extend(path::read(reader, result)?);
     let sketch = &mut page.figures[0];
-    sketch.note = "where the path begins, t = 0".into();
     (sketch.path, sketch.at, sketch.t) = (Some(0), Some(0.0), Some(0.0));
     let solutions = list(result, "solutions")?;
     for (k, found) in solutions.iter().enumerate() {
@@ -36,10 +35,9 @@ pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
         accuracy.figures = std::iter::once(None).chain(widths).collect();
     }
     page.text = words(mode, closed, open, reader);
-    page.digits = match mode {
-        "certified" => reader.proved_digits(),
-        _ => reader.gauge(),
-    };
+    if mode != "certified" {
+        page.digits = reader.gauge();
+    }
     page.rows = rows(result);
     Ok(page)
 }
@@ -47,8 +45,7 @@ pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
 /// Figures of the whole that are made of solutions of its blocks.
 pub(super) fn blocks(reader: &Reader) -> Result<Page, ShowError> {
     let blocks = &reader.result["blocks"];
-    let mut page = reader.page()?;
-    page.figures[0].note = "not a solution: drawn for comparison".into();
+    let mut page = reader.page("Sketch", "not a solution: drawn for comparison")?;
     let (badge, tone) = match blocks["proved"].as_bool() {
         Some(true) => (
             "proved · complete for the paths of the blocks",
@@ -66,12 +63,11 @@ pub(super) fn blocks(reader: &Reader) -> Result<Page, ShowError> {
         if combined["points"].is_null() {
             continue;
         }
-        let figure = reader.figure(&combined["points"], &Value::Null);
         page.figures.push(Figure {
             name: format!("Figure {}", k + 1),
             note: choices(&combined["choices"]).ok_or(wrong("blocks"))?,
             class: Some(k),
-            ..figure.ok_or(wrong("blocks"))?
+            ..reader.figure(&combined["points"], &Value::Null, "blocks")?
         });
     }
     page.text = vec![
@@ -84,9 +80,8 @@ pub(super) fn blocks(reader: &Reader) -> Result<Page, ShowError> {
         Text::List(
             runs.iter()
                 .map(|run| {
-                    let named = list(run, "names")?.iter().filter_map(Value::as_str);
-                    let named: Vec<&str> = named.collect();
-                    Ok(format!("{}: {}", named.join(", "), text(run, "verdict")?))
+                    let named = strings(&run["names"]).join(", ");
+                    Ok(format!("{named}: {}", text(run, "verdict")?))
                 })
                 .collect::<Result<_, ShowError>>()?,
         ),
@@ -95,7 +90,6 @@ pub(super) fn blocks(reader: &Reader) -> Result<Page, ShowError> {
         page.text
             .push(Text::Paragraph(format!("Why the whole stopped: {reason}.")));
     }
-    page.digits = reader.proved_digits();
     let shown = page.figures.len() - 1;
     page.rows = vec![
         ("blocks".into(), runs.len().to_string()),
@@ -111,23 +105,6 @@ pub(super) fn blocks(reader: &Reader) -> Result<Page, ShowError> {
         ),
     ];
     Ok(page)
-}
-
-/// `block 1 solution 1, block 2 solution 3 mirrored`.
-fn choices(choices: &Value) -> Option<String> {
-    let each = choices.as_array()?.iter().map(|choice| {
-        let mirrored = match choice["mirrored"].as_bool()? {
-            true => " mirrored",
-            false => "",
-        };
-        let (block, solution) = (choice["block"].as_u64()?, choice["solution"].as_u64()?);
-        Some(format!(
-            "block {} solution {}{mirrored}",
-            block + 1,
-            solution + 1
-        ))
-    });
-    Some(each.collect::<Option<Vec<_>>>()?.join(", "))
 }
 
 fn solution(reader: &Reader, k: usize, solution: &Value) -> Option<Figure> {
@@ -153,7 +130,9 @@ fn solution(reader: &Reader, k: usize, solution: &Value) -> Option<Figure> {
         at: solution["arc"].as_f64(),
         t: Some(1.0),
         folds,
-        ..reader.figure(&solution["points"], &solution["objects"])?
+        ..reader
+            .figure(&solution["points"], &solution["objects"], "solutions")
+            .ok()?
     })
 }
 

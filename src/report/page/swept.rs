@@ -6,10 +6,8 @@ use serde_json::Value;
 
 pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
     let result = reader.result;
-    let mut page = reader.page()?;
+    let mut page = reader.page("In the file", "the figure that the sweep sets out from")?;
     let name = text(result, "dimension")?;
-    page.figures[0].name = "In the file".into();
-    page.figures[0].note = "the figure that the sweep sets out from".into();
     let status = text(result, "status")?;
     let (badge, tone) = match status {
         "reached" => ("proved", Tone::Proved),
@@ -17,10 +15,7 @@ pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
         _ => ("proved in part", Tone::Stopped),
     };
     (page.badge, page.tone) = (badge.into(), tone);
-    let own_name = format!("{}: ", page.title);
-    page.verdict = text(result, "words")?
-        .trim_start_matches(&own_name)
-        .to_owned();
+    page.verdict = reader.words()?;
     // The dimension that is driven has no one length.
     let ends = reader.ends_of(name);
     for bar in page.bars.iter_mut().filter(|bar| Some(bar.ends) == ends) {
@@ -33,8 +28,7 @@ pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
     let mut levels = Vec::new();
     for (k, frame) in frames.iter().enumerate() {
         let value = pair(&frame["value"]).ok_or(wrong("frames"))?;
-        let figure = reader.figure(&frame["points"], &Value::Null);
-        let figure = figure.ok_or(wrong("frames"))?;
+        let figure = reader.figure(&frame["points"], &Value::Null, "frames")?;
         let sample = Sample {
             at: samples
                 .last()
@@ -63,12 +57,11 @@ pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
         samples.push(sample);
     }
     if status == "limit" {
-        let figure = reader.figure(&result["end"]["points"], &Value::Null);
         page.figures.push(Figure {
             name: "At the limit".into(),
             note: "no further this way".into(),
             class: Some(2),
-            ..figure.ok_or(wrong("end"))?
+            ..reader.figure(&result["end"]["points"], &Value::Null, "end")?
         });
     }
     page.text = vec![Text::Paragraph(format!(
@@ -76,18 +69,14 @@ pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
          a turn back: what is drawn there is drawn straight from one frame to the next."
     ))];
     page.rows = vec![("frames".into(), frames.len().to_string())];
-    page.digits = reader.proved_digits();
     if samples.len() > 1 {
         page.paths.push(Path {
-            name: String::new(),
             parameter: name.to_owned(),
             along: "how far the points move".into(),
             legend: format!("How {name} changes as the figure moves."),
             levels,
             samples,
-            marks: Vec::new(),
-            accuracy: None,
-            has_own_sketch: false,
+            ..Path::default()
         });
     }
     Ok(page)
