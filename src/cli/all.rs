@@ -4,7 +4,7 @@ use super::check::counted;
 use super::edit::say_if_it_moves;
 use super::input::Asked;
 use super::measured::{Measured, placed};
-use super::output::{self, Beside, Destination};
+use super::output::{self, Beside, Destination, beside, number};
 use super::pictures::Pictures;
 use super::take::{Candidates, Take, Taken};
 use super::verify::check_cover;
@@ -12,11 +12,9 @@ use super::{BAD_INPUT, CLOSED, INCOMPLETE, NOT_PROVED, STOPPED, input, interrupt
 use krawl::blocks::Account;
 use krawl::complete::{Complete, Keep, Options, Progress, Status, Tested, Unserved, all};
 use krawl::constraint::Symmetry;
-use krawl::report::page::Page;
 use krawl::report::{ProgressLine, complete_to_json, complete_to_table, complete_to_value};
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
@@ -98,10 +96,8 @@ pub struct Arguments {
 }
 
 pub(super) fn seconds(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(x) if x > 0.0 && x < 1e9 => Ok(x),
-        _ => Err("must be a number greater than 0".to_owned()),
-    }
+    let must = "must be a number greater than 0";
+    number(text, |x| *x > 0.0 && *x < 1e9, must)
 }
 
 fn share(text: &str) -> Result<[usize; 2], String> {
@@ -131,20 +127,8 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         }
     };
     let measures = arguments.measured.of(&problem)?;
-    let json = arguments
-        .json
-        .as_deref()
-        .map(Destination::new)
-        .transpose()?;
-    for results in [&arguments.json, &arguments.cert].into_iter().flatten() {
-        if !output::is_same_file(results, &arguments.file) {
-            continue;
-        }
-        return Err(format!(
-            "{}: is the problem itself; name another file for the results",
-            results.display()
-        ));
-    }
+    let json = beside([file], arguments.json.as_deref())?;
+    output::refuse_read([file], arguments.cert.as_deref())?;
     if let Some(cert) = &arguments.cert
         && Some(cert) == arguments.json.as_ref()
     {
@@ -157,13 +141,9 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     // Before any file is begun, so that an interrupt leaves none behind.
     let cancel = interrupt::flag();
     let cert = arguments.cert.as_deref().map(Beside::new).transpose()?;
-    let line = Mutex::new(ProgressLine::new(!arguments.quiet, ""));
+    let line = ProgressLine::new(!arguments.quiet, "");
     let begin = Instant::now();
-    let tell = |now: Progress| {
-        if let Ok(mut line) = line.lock() {
-            line.show_search(now, begin.elapsed().as_secs_f64());
-        }
-    };
+    let tell = |now: Progress| line.show_search(now, begin.elapsed().as_secs_f64());
     let options = Options {
         cancel: Some(cancel),
         time: arguments.time.map(Duration::from_secs_f64),
@@ -187,9 +167,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         Some(surplus) => surplus.search(&options),
         None => all(&problem, &options),
     };
-    if let Ok(line) = line.into_inner() {
-        line.clear();
-    }
+    line.clear();
     let mut result = match result {
         Ok(result) => result,
         Err(Unserved::Store(what)) => return Err(what),
@@ -221,10 +199,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         }),
         _ => {}
     }
-    if !pictures.is_empty() {
-        let page = Page::from_result(&complete_to_value(&problem, &result));
-        written &= pictures.write(&page.map_err(|error| error.to_string())?);
-    }
+    written &= pictures.write_page(|| complete_to_value(&problem, &result))?;
     let figures = || result.solutions.iter().map(placed);
     if let Some(json) = &json {
         let text = match measures.is_empty() {

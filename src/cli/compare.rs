@@ -53,10 +53,8 @@ pub struct Arguments {
 }
 
 fn seconds(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(x) if x > 0.0 && x <= 1e9 => Ok(x),
-        _ => Err("must be a number of seconds greater than 0".to_owned()),
-    }
+    let must = "must be a number of seconds greater than 0";
+    output::number(text, |x| *x > 0.0 && *x <= 1e9, must)
 }
 
 /// A problem to run, and what was published about it.
@@ -109,7 +107,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let count = subjects.len();
     for (k, (subject, file)) in subjects.into_iter().zip(&arguments.files).enumerate() {
         let which = output::which_of((k, count), file);
-        let mut line = ProgressLine::new(!arguments.quiet, &which);
+        let line = ProgressLine::new(!arguments.quiet, &which);
         let mut show = |now: Progress| line.show(now);
         let mut hooks = Hooks {
             cancel: Some(cancel),

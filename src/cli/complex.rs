@@ -9,7 +9,6 @@ use krawl::problem::Problem;
 use krawl::report::{ProgressLine, complex_to_json, complex_to_table};
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
 /// Find all complex solutions, every path proved (unless --float)
@@ -100,11 +99,9 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         .map(Destination::new)
         .transpose()?;
     let cert = arguments.cert.as_deref().map(Beside::new).transpose()?;
-    let line = Mutex::new(ProgressLine::new(!arguments.quiet, ""));
+    let line = ProgressLine::new(!arguments.quiet, "");
     let tell = |done: usize, all: usize| {
-        if let Ok(mut line) = line.lock() {
-            line.show_text(format!("{done} of {all} paths"));
-        }
+        line.show_text(format!("{done} of {all} paths"));
     };
     let time = arguments.search.time;
     let ways = Ways {
@@ -128,9 +125,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         };
         Ok::<_, String>(solve(&lowered, &template, &ways))
     });
-    if let Ok(line) = line.into_inner() {
-        line.clear();
-    }
+    line.clear();
     let result = result??;
     let mut written = true;
     if let Some(cert) = &cert {

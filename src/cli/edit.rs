@@ -1,7 +1,7 @@
 //! `krawl edit`: changes dimensions and takes the figure along.
 
 use super::measured::Measured;
-use super::output::{self, Beside, Destination};
+use super::output::{self, Beside, Destination, beside};
 use super::pictures::Pictures;
 use super::take::check_format;
 use super::verify::check_written;
@@ -194,7 +194,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             None => cert = None,
         }
     }
-    let json = beside(&arguments.file, arguments.json.as_deref())?;
+    let json = beside([&arguments.file], arguments.json.as_deref())?;
     let pictures = arguments.pictures.places([&arguments.file])?;
     // Before any file is begun, so that an interrupt leaves none behind.
     let cancel = interrupt::flag();
@@ -369,19 +369,6 @@ pub(super) fn commit(
 
 fn in_file(file: &Path, error: &dyn std::fmt::Display) -> String {
     format!("{}: {error}", file.display())
-}
-
-/// Where results go, which must not be the problem itself.
-pub(super) fn beside(file: &Path, results: Option<&Path>) -> Result<Option<Destination>, String> {
-    if let Some(results) = results
-        && output::is_same_file(results, file)
-    {
-        return Err(format!(
-            "{}: is the problem itself; name another file for the results",
-            results.display()
-        ));
-    }
-    results.map(Destination::new).transpose()
 }
 
 /// What is said of a drawing that is singular, a line of text; nothing of others.

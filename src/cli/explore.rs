@@ -1,6 +1,6 @@
 //! `krawl explore`: new sketches from solutions, and their paths, until nothing new comes.
 
-use super::output::{self, Beside, Destination};
+use super::output::{self, Beside, Destination, beside, number};
 use super::pictures::Pictures;
 use super::verify::check_written;
 use super::{BAD_INPUT, CLOSED, INCOMPLETE, input, interrupt};
@@ -8,7 +8,6 @@ use krawl::certificate::Writer;
 use krawl::complete::{self, all};
 use krawl::explore::{ExploreError, Explorer, Finish, Options, Progress};
 use krawl::problem::{Problem, Published};
-use krawl::report::page::Page;
 use krawl::report::{
     AllReal, Explored, ProgressLine, TracedPath, explore_to_json, explore_to_table,
     explore_to_value,
@@ -17,7 +16,6 @@ use krawl::track::{self, Control, Witness};
 use std::collections::BTreeSet;
 use std::io::BufWriter;
 use std::path::{Path, PathBuf};
-use std::sync::Mutex;
 use std::time::Duration;
 
 /// Look for more real solutions: new sketches from those found, their paths, and so on
@@ -105,10 +103,8 @@ pub struct Arguments {
 }
 
 fn seconds_or_none(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(x) if (0.0..1e9).contains(&x) => Ok(x),
-        _ => Err("must be a number, 0 or greater".to_owned()),
-    }
+    let must = "must be a number, 0 or greater";
+    number(text, |x| (0.0..1e9).contains(x), must)
 }
 
 /// Runs the verb and returns the exit code.
@@ -119,18 +115,7 @@ pub fn run(arguments: &Arguments) -> u8 {
 fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let file = arguments.file.display();
     let (problem, published) = read(arguments)?;
-    let json = arguments
-        .json
-        .as_deref()
-        .map(Destination::new)
-        .transpose()?;
-    if let Some(json) = &arguments.json
-        && output::is_same_file(json, &arguments.file)
-    {
-        return Err(format!(
-            "{file}: is the problem itself; name another file for the results"
-        ));
-    }
+    let json = beside([&arguments.file], arguments.json.as_deref())?;
     let pictures = arguments.pictures.places([&arguments.file])?;
     let cancel = interrupt::flag();
     let at = |error: ExploreError| match error {
@@ -138,14 +123,12 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         _ => error.to_string(),
     };
     let mut explorer = Explorer::open(&problem, &arguments.store).map_err(at)?;
-    let line = Mutex::new(ProgressLine::new(!arguments.quiet, ""));
+    let line = ProgressLine::new(!arguments.quiet, "");
     let tell = |now: Progress| {
-        if let Ok(mut line) = line.lock() {
-            line.show_text(format!(
-                "{} paths   {} solutions   {} sketches waiting   way {}   {:.1} paths/s",
-                now.paths, now.solutions, now.queue, now.way, now.rate
-            ));
-        }
+        line.show_text(format!(
+            "{} paths   {} solutions   {} sketches waiting   way {}   {:.1} paths/s",
+            now.paths, now.solutions, now.queue, now.way, now.rate
+        ));
     };
     let options = Options {
         time: arguments.time.map(Duration::from_secs_f64),
@@ -158,9 +141,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         progress: Some(&tell),
     };
     let finish = explorer.run(&options);
-    if let Ok(line) = line.into_inner() {
-        line.clear();
-    }
+    line.clear();
     let finish = finish.map_err(at)?;
     let mut written = true;
     if let Some(count) = arguments.shard {
@@ -200,10 +181,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     if let Some(json) = &json {
         written &= json.write(&(explore_to_json(&explored) + "\n"));
     }
-    if !pictures.is_empty() {
-        let page = Page::from_result(&explore_to_value(&explored));
-        written &= pictures.write(&page.map_err(|error| error.to_string())?);
-    }
+    written &= pictures.write_page(|| explore_to_value(&explored))?;
     let elsewhere = json == Some(Destination::StandardOutput) || pictures.use_standard_output();
     if !arguments.quiet && !elsewhere {
         written &= output::print(&explore_to_table(&explored, arguments.all));
@@ -283,7 +261,7 @@ fn trace(explorer: &Explorer, quiet: bool) -> Vec<TracedPath> {
         let Some(problem) = explorer.problem_of(id) else {
             continue;
         };
-        let mut line = ProgressLine::new(!quiet, &format!("picture {} of {}", k + 1, ids.len()));
+        let line = ProgressLine::new(!quiet, &format!("picture {} of {}", k + 1, ids.len()));
         let mut show = |now: track::Progress| line.show(now);
         let mut control = Control {
             progress: Some(&mut show),

@@ -1,7 +1,7 @@
 //! `krawl limits`: how far each dimension can go alone.
 
-use super::edit::{LeftOut, beside, drawn_in_words, open};
-use super::output::{self, Destination};
+use super::edit::{LeftOut, drawn_in_words, open};
+use super::output::{self, Destination, beside};
 use super::pictures::Pictures;
 use super::{BAD_INPUT, CLOSED, STOPPED, input, interrupt};
 use krawl::edit::{End, Setting};
@@ -61,7 +61,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let only = only
         .collect::<Result<Vec<_>, _>>()
         .map_err(|error| format!("{shown}: {error}"))?;
-    let json = beside(&arguments.file, arguments.json.as_deref())?;
+    let json = beside([&arguments.file], arguments.json.as_deref())?;
     let pictures = arguments.pictures.places([&arguments.file])?;
     let mut control = interrupt::control();
     let mut session = match open(

@@ -1,8 +1,7 @@
 //! `krawl motion`: how a figure moves that has one degree of freedom.
 
-use super::edit::beside;
 use super::measured::Measured;
-use super::output::{self, Destination};
+use super::output::{self, Destination, beside};
 use super::pictures::Pictures;
 use super::{BAD_INPUT, CLOSED, OPEN, STOPPED, input, interrupt};
 use krawl::motion::Motion;
@@ -66,8 +65,8 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let problem = &loaded.problem;
     // What can be measured is known before anything is followed.
     let measures = arguments.measured.of_points(problem)?;
-    let json = beside(&arguments.file, arguments.json.as_deref())?;
-    let csv = beside(&arguments.file, arguments.csv.as_deref())?;
+    let json = beside([&arguments.file], arguments.json.as_deref())?;
+    let csv = beside([&arguments.file], arguments.csv.as_deref())?;
     let pictures = arguments.pictures.places([&arguments.file])?;
     let mut control = interrupt::control();
     let motion = Motion::of(

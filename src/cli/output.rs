@@ -46,6 +46,40 @@ pub fn is_same_file(one: &Path, other: &Path) -> bool {
     }
 }
 
+/// Refuses a file of results that is one of those that are read.
+pub fn refuse_read<'f>(
+    read: impl IntoIterator<Item = &'f PathBuf>,
+    results: Option<&Path>,
+) -> Result<(), String> {
+    let mut read = read.into_iter();
+    match results.filter(|results| read.any(|file| is_same_file(results, file))) {
+        None => Ok(()),
+        Some(results) => Err(format!(
+            "{}: is the problem itself; name another file for the results",
+            results.display()
+        )),
+    }
+}
+
+/// Where results go, which must not be what is read.
+pub fn beside<'f>(
+    read: impl IntoIterator<Item = &'f PathBuf>,
+    results: Option<&Path>,
+) -> Result<Option<Destination>, String> {
+    refuse_read(read, results)?;
+    results.map(Destination::new).transpose()
+}
+
+/// A number on the command line, if it is one that is wanted; `must`: what it has to be.
+pub fn number<T: std::str::FromStr>(
+    text: &str,
+    is_wanted: impl FnOnce(&T) -> bool,
+    must: &str,
+) -> Result<T, String> {
+    let number = text.parse().ok().filter(is_wanted);
+    number.ok_or_else(|| must.to_owned())
+}
+
 /// Where a file of results goes.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Destination {
@@ -122,7 +156,7 @@ impl Beside {
         let Destination::File(path) = Destination::new(argument)? else {
             return Err(format!("{}: must be a regular file", argument.display()));
         };
-        let beside = beside(&path);
+        let beside = temporary(&path);
         let file = fs::File::create_new(&beside)
             .map_err(|error| format!("{}: cannot be written: {error}", argument.display()))?;
         Ok(Beside { file, beside, path })
@@ -156,7 +190,7 @@ impl Drop for Beside {
     }
 }
 
-fn beside(path: &Path) -> PathBuf {
+fn temporary(path: &Path) -> PathBuf {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     folder(path).join(format!(".{name}.{}.tmp", std::process::id()))
 }
@@ -169,7 +203,7 @@ fn folder(path: &Path) -> &Path {
 }
 
 fn replace(path: &Path, text: &str) -> io::Result<()> {
-    let beside = beside(path);
+    let beside = temporary(path);
     let written = fs::File::create_new(&beside)
         .and_then(|mut file| {
             file.write_all(text.as_bytes())

@@ -125,11 +125,17 @@ impl Places<'_> {
         }
         let value = result();
         let mut well = json.is_none_or(|json| json.write(&(value.to_string() + "\n")));
-        if !self.is_empty() {
-            let page = Page::from_result(&value).map_err(|error| error.to_string())?;
-            well &= self.write(&page);
-        }
+        well &= self.write_page(|| value)?;
         Ok(well)
+    }
+
+    /// Writes a result, which is made where it is wanted, as pictures alone. Returns whether all is well, having complained otherwise.
+    pub fn write_page(&self, result: impl FnOnce() -> Value) -> Result<bool, String> {
+        if self.is_empty() {
+            return Ok(true);
+        }
+        let page = Page::from_result(&result()).map_err(|error| error.to_string())?;
+        Ok(self.write(&page))
     }
 
     /// Writes all of it. Returns whether all is well, having complained otherwise.

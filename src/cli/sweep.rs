@@ -1,17 +1,15 @@
 //! `krawl sweep`: drives a mechanism through a range of one dimension.
 
 use super::edit::{
-    LeftOut, beside, carried, certified, commit, drawn_in_words, exit_code, is_unwitnessed, open,
-    reason,
+    LeftOut, carried, certified, commit, drawn_in_words, exit_code, is_unwitnessed, open, reason,
 };
 use super::measured::Measured;
-use super::output::{self, Beside, Destination};
+use super::output::{self, Beside, Destination, beside};
 use super::pictures::Pictures;
 use super::{BAD_INPUT, CLOSED, input, interrupt, table};
 use crate::places::Each as _;
 use krawl::certificate::Writer;
 use krawl::edit::{Asked, Ending, Setting};
-use krawl::report::page::Page;
 use krawl::report::{sweep_in_words, sweep_to_csv, sweep_to_value};
 use krawl::track::{Control, Witness};
 use std::io::BufWriter;
@@ -153,8 +151,8 @@ fn drive(arguments: &Arguments, vary: &str, ends: [&str; 2]) -> Result<u8, Strin
             None => cert = None,
         }
     }
-    let json = beside(&arguments.file, arguments.json.as_deref())?;
-    let csv = beside(&arguments.file, arguments.csv.as_deref())?;
+    let json = beside([&arguments.file], arguments.json.as_deref())?;
+    let csv = beside([&arguments.file], arguments.csv.as_deref())?;
     let pictures = arguments.pictures.places([&arguments.file])?;
     let cancel = interrupt::flag();
     let begun = cert.map(Beside::new).transpose()?;
@@ -190,23 +188,19 @@ fn drive(arguments: &Arguments, vary: &str, ends: [&str; 2]) -> Result<u8, Strin
             arguments.quiet,
         )?,
     };
-    if !pictures.is_empty() {
-        let page = Page::from_result(&sweep_to_value(&problem, index, &sweep));
-        written &= pictures.write(&page.map_err(|error| error.to_string())?);
-    }
     let frames = || {
         sweep
             .frames
             .iter()
             .map(|frame| (&frame.points[..], &frame.objects[..]))
     };
-    if let Some(json) = &json {
+    written &= pictures.write_result(json.as_ref(), || {
         let mut value = sweep_to_value(&problem, index, &sweep);
         if !measures.is_empty() {
             value["measures"] = measures.to_value(frames());
         }
-        written &= json.write(&(value.to_string() + "\n"));
-    }
+        value
+    })?;
     if let Some(csv) = &csv {
         written &= csv.write(&sweep_to_csv(&problem, index, &sweep, &measures));
     }

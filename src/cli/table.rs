@@ -2,7 +2,7 @@
 
 use super::edit::{drawn_in_words, exit_code, open};
 use super::input::{self, Loaded};
-use super::output::{self, Beside, Destination};
+use super::output::{self, Beside, Destination, beside};
 use super::sweep::Arguments;
 use super::{BAD_INPUT, CLOSED, interrupt};
 use krawl::edit::{Asked, Edited, Ending, Session, Setting};
@@ -78,7 +78,7 @@ pub(super) fn run(arguments: &Arguments, file: &Path) -> Result<u8, String> {
         .map_err(|error| format!("{}: {error}", file.display()))?;
     let (columns, problem) = (table.names.len(), &asked.problem);
     let measures = arguments.measured.of(problem)?;
-    let csv = super::edit::beside(&arguments.file, arguments.csv.as_deref())?;
+    let csv = beside([&arguments.file], arguments.csv.as_deref())?;
     let folder = arguments.out_folder.as_deref();
     if let Some(folder) = folder {
         fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;

@@ -7,7 +7,6 @@ use krawl::complex::{Effort, Fibre, Filling, Lowered, Template, Ways, fill, lowe
 use krawl::problem::Problem;
 use krawl::report::ProgressLine;
 use std::path::{Path, PathBuf};
-use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
 /// Find the complex solutions of a random instance, to be used for all instances
@@ -81,13 +80,11 @@ impl Search {
         &self,
         lowered: &Lowered,
         from: Option<&Template>,
-        line: &Mutex<ProgressLine>,
+        line: &ProgressLine,
     ) -> Result<Fibre, String> {
         let tell = |found: usize, effort: &Effort| {
-            if let Ok(mut line) = line.lock() {
-                let paths = effort.paths;
-                line.show_text(format!("template: {found} solutions   {paths} paths"));
-            }
+            let paths = effort.paths;
+            line.show_text(format!("template: {found} solutions   {paths} paths"));
         };
         let plain = Filling::default();
         let filling = Filling {
@@ -164,16 +161,14 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         ));
     }
     let out = Destination::new(&arguments.out)?;
-    let line = Mutex::new(ProgressLine::new(!arguments.quiet, ""));
+    let line = ProgressLine::new(!arguments.quiet, "");
     let begin = Instant::now();
     let fibre = arguments.search.in_pool(|| {
         let from = from.as_ref().map(|text| text.prove(&lowered)).transpose()?;
         let fibre = arguments.search.fill(&lowered, from.as_ref(), &line);
         fibre.map_err(|error| format!("{file}: {error}"))
     })?;
-    if let Ok(line) = line.into_inner() {
-        line.clear();
-    }
+    line.clear();
     let fibre = fibre?;
     let is_full = lowered.enough() == Some(fibre.solutions.len());
     let text = summary(&problem, &lowered, &fibre, begin.elapsed().as_secs_f64());

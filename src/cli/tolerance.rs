@@ -1,8 +1,7 @@
 //! `krawl tolerance`: every dimension within its limits, and what that does to the figure.
 
-use super::edit::beside;
 use super::measured::Measured;
-use super::output::{self, Destination};
+use super::output::{self, Destination, beside};
 use super::pictures::Pictures;
 use super::{BAD_INPUT, CLOSED, STOPPED, input, interrupt};
 use krawl::problem::Decimal;
@@ -71,8 +70,8 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     arguments.time.begin();
     let shown = arguments.file.display();
     let (problem, made) = input::whole(&arguments.file, arguments.sketch.as_deref())?;
-    let json = beside(&arguments.file, arguments.json.as_deref())?;
-    let csv = beside(&arguments.file, arguments.csv.as_deref())?;
+    let json = beside([&arguments.file], arguments.json.as_deref())?;
+    let csv = beside([&arguments.file], arguments.csv.as_deref())?;
     let pictures = arguments.pictures.places([&arguments.file])?;
     let default = arguments.default.as_deref().map(deviations).transpose()?;
     let named = arguments.tolerance.iter().map(|text| {

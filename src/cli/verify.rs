@@ -73,25 +73,25 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let name = arguments.cert.display();
     let file = File::open(&arguments.cert).map_err(|e| format!("{name}: cannot be read: {e}"))?;
     let opened = contents(BufReader::new(file)).map_err(|error| format!("{name}: {error}"));
-    let (contents, file) = opened?;
+    let (contents, mut file) = opened?;
     let file_of = arguments.file.as_ref();
     let of_file = file_of.map(|path| of_file(path, arguments.sketch.as_deref(), contents));
     let of_file = of_file.transpose()?;
     let of_file = of_file.as_deref();
-    match contents {
-        Contents::Cover => {
-            return verify_the_cover(arguments, file, of_file);
-        }
-        Contents::ComplexSet => {
-            return verify_the_set(arguments, file, of_file);
-        }
-        Contents::Path => {}
+    if contents != Contents::Path {
+        let mut bytes = Vec::new();
+        let read = file.read_to_end(&mut bytes);
+        read.map_err(|e| format!("{name}: cannot be read: {e}"))?;
+        return match contents {
+            Contents::Cover => verify_the_cover(arguments, &bytes, of_file),
+            _ => verify_the_set(arguments, &bytes, of_file),
+        };
     }
     let settings = Settings {
         threads: arguments.threads.unwrap_or(0).into(),
     };
     let clock = Instant::now();
-    let mut line = ProgressLine::new(!arguments.quiet, "");
+    let line = ProgressLine::new(!arguments.quiet, "");
     let mut show = |stage: Stage| line.show_check(stage.tubes, stage.solutions);
     let verdict = verify(file, &settings, &mut show);
     line.clear();
@@ -235,17 +235,10 @@ fn print_with_problem(
 }
 
 /// Checks a set of complex solutions.
-fn verify_the_set(
-    arguments: &Arguments,
-    mut file: impl Read,
-    of_file: OfFile,
-) -> Result<u8, String> {
+fn verify_the_set(arguments: &Arguments, bytes: &[u8], of_file: OfFile) -> Result<u8, String> {
     let name = arguments.cert.display();
-    let mut bytes = Vec::new();
-    file.read_to_end(&mut bytes)
-        .map_err(|e| format!("{name}: cannot be read: {e}"))?;
     let clock = Instant::now();
-    let verdict = super::in_pool(arguments.threads, || verify_complex_set(&bytes))?;
+    let verdict = super::in_pool(arguments.threads, || verify_complex_set(bytes))?;
     let verdict = verdict.map_err(|error| format!("{name}: {error}"))?;
     let text = complex_set_theorem(&verdict, clock.elapsed());
     let (same, found) = compare(of_file, |problem| verdict.is_about(problem));
@@ -261,17 +254,10 @@ fn verify_the_set(
 }
 
 /// Checks what a search for all solutions left.
-fn verify_the_cover(
-    arguments: &Arguments,
-    mut file: impl Read,
-    of_file: OfFile,
-) -> Result<u8, String> {
+fn verify_the_cover(arguments: &Arguments, bytes: &[u8], of_file: OfFile) -> Result<u8, String> {
     let name = arguments.cert.display();
-    let mut bytes = Vec::new();
-    file.read_to_end(&mut bytes)
-        .map_err(|e| format!("{name}: cannot be read: {e}"))?;
     let clock = Instant::now();
-    let verdict = check_cover(&bytes, arguments.threads, arguments.quiet, || true);
+    let verdict = check_cover(bytes, arguments.threads, arguments.quiet, || true);
     let verdict = verdict.map_err(|error| format!("{name}: {error}"))?;
     let text = cover_theorem(&verdict, clock.elapsed());
     let (same, found) = compare(of_file, |problem| verdict.is_about(problem));
@@ -293,7 +279,7 @@ pub(super) fn check_cover(
     quiet: bool,
     goes_on: impl Fn() -> bool + Sync + Send,
 ) -> Result<CoverVerdict, String> {
-    let mut line = ProgressLine::new(!quiet, "");
+    let line = ProgressLine::new(!quiet, "");
     let mut show = |stage| {
         line.show_cover(stage);
         goes_on()
@@ -317,7 +303,7 @@ pub(super) fn check_written(
     };
     let name = path.display();
     let file = File::open(path).map_err(|e| format!("{name}: cannot be read again: {e}"))?;
-    let mut line = ProgressLine::new(!quiet, "");
+    let line = ProgressLine::new(!quiet, "");
     let mut show = |stage: Stage| line.show_check(stage.tubes, stage.solutions);
     let verdict = verify(BufReader::new(file), &Settings::default(), &mut show);
     line.clear();

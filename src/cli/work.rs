@@ -5,7 +5,6 @@ use super::{CLOSED, INCOMPLETE, interrupt};
 use krawl::explore::{Limits, Share, Worked, work};
 use krawl::report::ProgressLine;
 use std::path::{Path, PathBuf};
-use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
 /// Follow the sketches of a work unit of `krawl explore --shard`, on this machine
@@ -63,11 +62,9 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             out.display()
         ));
     }
-    let line = Mutex::new(ProgressLine::new(!arguments.quiet, ""));
+    let line = ProgressLine::new(!arguments.quiet, "");
     let tell = |now: Worked| {
-        if let Ok(mut line) = line.lock() {
-            line.show_text(format!("{} of {} paths", now.done, now.of));
-        }
+        line.show_text(format!("{} of {} paths", now.done, now.of));
     };
     let limits = Limits {
         most_tubes: arguments.max_tubes,
@@ -78,9 +75,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     };
     let jobs = arguments.jobs.unwrap_or(0).into();
     let worked = work(&share, &out, jobs, &limits, &tell);
-    if let Ok(line) = line.into_inner() {
-        line.clear();
-    }
+    line.clear();
     let Worked { done, of } = worked.map_err(|error| error.to_string())?;
     if !arguments.quiet {
         output::print(&format!("{}: {done} of {of} paths\n", out.display()));

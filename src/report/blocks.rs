@@ -131,14 +131,7 @@ impl BlockRuns<'_> {
 
     /// The result as a value in memory: that of the whole, which stopped, with `blocks` added (docs/using/programs.md).
     pub fn to_value(&self, whole: &Outcome, all: bool) -> Value {
-        let run = |problem, outcome| Run {
-            problem,
-            options: self.options,
-            outcome,
-            trace: None,
-            samples: 0,
-            tested: None,
-        };
+        let run = |problem, outcome| Run::new(problem, self.options, outcome);
         let mut value = run(self.problem, whole).to_value();
         let blocks: Vec<Value> = self
             .runs

@@ -37,7 +37,19 @@ pub struct Run<'a> {
     pub tested: Option<&'a Tested>,
 }
 
-impl Run<'_> {
+impl<'a> Run<'a> {
+    /// A run of which no path was kept, and in which nothing was left out.
+    pub fn new(problem: &'a Problem, options: &'a Options, outcome: &'a Outcome) -> Self {
+        Run {
+            problem,
+            options,
+            outcome,
+            trace: None,
+            samples: 0,
+            tested: None,
+        }
+    }
+
     /// The results as one line of JSON, as docs/using/programs.md describes it.
     ///
     /// Numbers read back as the floats that they were written from. JSON has neither infinities nor

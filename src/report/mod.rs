@@ -112,14 +112,8 @@ mod tests {
     }
 
     fn to_json(problem: &Problem, outcome: &Outcome) -> String {
-        let run = Run {
-            problem,
-            options: &Options::certified(),
-            outcome,
-            trace: None,
-            samples: 0,
-            tested: None,
-        };
+        let options = Options::certified();
+        let run = Run::new(problem, &options, outcome);
         assert_eq!(
             serde_json::from_str::<Value>(&run.to_json()).unwrap(),
             run.to_value()

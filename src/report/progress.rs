@@ -40,14 +40,14 @@ impl ProgressLine {
     }
 
     /// Shows where the run is.
-    pub fn show(&mut self, now: Progress) {
+    pub fn show(&self, now: Progress) {
         if let Some(line) = &self.line {
             line.set_message(format!("{}{}", self.what, text(now)));
         }
     }
 
     /// Shows where the check of a certificate is.
-    pub fn show_check(&mut self, tubes: u64, solutions: usize) {
+    pub fn show_check(&self, tubes: u64, solutions: usize) {
         if let Some(line) = &self.line {
             let what = &self.what;
             line.set_message(format!(
@@ -57,7 +57,7 @@ impl ProgressLine {
     }
 
     /// Shows where the check of a cover is.
-    pub fn show_cover(&mut self, now: CoverStage) {
+    pub fn show_cover(&self, now: CoverStage) {
         if let Some(line) = &self.line {
             let (parts, percent) = (now.parts, 100.0 * now.share);
             line.set_message(format!(
@@ -67,7 +67,7 @@ impl ProgressLine {
     }
 
     /// Shows where the search for all solutions is: what is left is guessed from what is done.
-    pub fn show_search(&mut self, now: Searched, seconds: f64) {
+    pub fn show_search(&self, now: Searched, seconds: f64) {
         if let Some(line) = &self.line {
             let (share, fresh) = (now.share, now.share - now.before);
             let left = seconds * (1.0 - share) / fresh.max(1e-9);
@@ -80,7 +80,7 @@ impl ProgressLine {
     }
 
     /// Shows where the search for complex solutions is: the text says.
-    pub fn show_text(&mut self, text: String) {
+    pub fn show_text(&self, text: String) {
         if let Some(line) = &self.line {
             line.set_message(text);
         }

@@ -1,0 +1,295 @@
+//! `krawl solve`: follows the path of a problem and prints the solutions.
+
+mod asked;
+mod blocks;
+mod hints;
+mod path;
+mod told;
+
+use super::edit::LeftOut;
+use super::measured::Measured;
+use super::output::{self, Beside, Destination, number};
+use super::pictures::Pictures;
+use super::take::Take;
+use super::{BAD_INPUT, input, interrupt};
+use asked::Asked;
+use clap::ValueEnum;
+use krawl::track::{self, Options};
+use std::path::PathBuf;
+use told::Told;
+
+/// Follow the path through the sketch and list the figures on it that meet the dimensions
+///
+/// The solutions come in the order in which the path meets them, in coordinates in which the reference
+/// points are fixed: the first at the origin, the second on the x axis. Solutions of the same class are
+/// congruent: the same figure, or its mirror image. `reached without a fold` marks the one to which the
+/// sketch moves without turning back when its dimensions are led to their targets.
+#[derive(clap::Args)]
+#[command(after_long_help = "\
+Examples:
+  krawl solve sketch.toml                      the solutions, with proof
+  krawl solve sketch.toml --html page.html     a page to look at
+  krawl solve sketch.toml --json out.json      for programs (docs/using/programs.md); `krawl show` draws it
+  krawl solve a.toml b.toml c.toml --summary   one line for each
+  krawl generate strip --size 100 | krawl solve -
+  krawl solve sketch.toml --cert proof.krawl   leave the proof; `krawl verify` checks it
+  krawl solve problems/sketches/parts.FCStd --sketch Frame  a sketch of FreeCAD or SolveSpace, block by block
+
+A sketch of FreeCAD or SolveSpace is solved block by block, each where the blocks that it needs are; so is a problem in
+its own frame that stops as a whole or has not as many equations as unknowns, and one of distances that falls apart
+(docs/using/cad.md). A sketch is followed as a whole where a path is asked for: --cert, --animation, --samples, --space,
+--reverse, --mode float.
+
+Exit codes: 0 all paths closed, 1 a run stopped (its result says where and why, and keeps what it
+found), 2 bad input or results that could not be written, 5 open: a path came to an end both ways, and all between is
+proved (with --mode float: observed).")]
+pub struct Arguments {
+    /// Problem files (TOML; `-` is standard input), sketches or molecules
+    ///
+    /// Sketches of SolveSpace (.slvs) and FreeCAD (.FCStd); molecules (.xyz, .mol, .sdf, .pdb, .ent)
+    #[arg(required = true, value_name = "FILE")]
+    files: Vec<PathBuf>,
+    /// Which sketch or molecule of a file (`krawl check` lists them)
+    #[arg(long, value_name = "NAME")]
+    sketch: Option<String>,
+    /// Only the solution to which the sketch moves without a fold
+    ///
+    /// Exit code 0 if there is one, 3 if the path turns back before, 1 if that could not be proved, as in float mode.
+    /// Of a sketch of another program: the figure nearest to it in which angles, parallels, tangents and joined
+    /// points turn as there; 3 if no figure found is such
+    #[arg(long, conflicts_with_all = ["all", "summary", "cert", "reverse"])]
+    first: bool,
+    /// `certified` proves every step, `float` tracks in plain floats
+    #[arg(long, value_enum, hide_possible_values = true, default_value_t = Mode::Certified)]
+    mode: Mode,
+    /// All free coordinates, or the driving parameters of a plan
+    ///
+    /// [default: reduced for float, and for certified from 70 free coordinates on; otherwise full]
+    #[arg(long, value_enum, hide_short_help = true)]
+    space: Option<Space>,
+    /// Float mode: steps by rules of our own, or of RR 8705, 7.1 to 7.3
+    #[arg(long, help_heading = "For experiments", value_enum, default_value_t = Preset::Default, hide_short_help = true)]
+    preset: Preset,
+    /// How near a boundary configuration the plan is changed, up to 0.5
+    #[arg(long, help_heading = "For experiments", value_name = "X", default_value = "0.1", value_parser = alpha, hide_short_help = true)]
+    alpha: f64,
+    /// No step is longer than this, along the path
+    #[arg(long, help_heading = "For experiments", value_name = "X", value_parser = positive, hide_short_help = true)]
+    max_step: Option<f64>,
+    /// Certified mode: the radius of tubes
+    ///
+    /// How far the path may be from the middle of a tube. Extended precision is never switched on for the sake of a
+    /// small radius alone
+    #[arg(long, help_heading = "For experiments", value_name = "X", value_parser = positive, hide_short_help = true)]
+    tube_radius: Option<f64>,
+    /// Certified mode: keep to 53 bits, and stop where they do not suffice
+    ///
+    /// Otherwise extended precision is switched on there (which only the full space has)
+    #[arg(long, help_heading = "For experiments", hide_short_help = true)]
+    no_extended: bool,
+    /// Float mode: points are corrected until a correction is about this small
+    #[arg(long, help_heading = "For experiments", value_name = "X", value_parser = positive, hide_short_help = true)]
+    tolerance: Option<f64>,
+    /// Follow the loop the other way round
+    #[arg(long, hide_short_help = true)]
+    reverse: bool,
+    /// Threads for one run in certified mode; 0 is one for each processor
+    ///
+    /// With two or more a path of distances alone is followed both ways from the sketch at once, until these meet;
+    /// with 127 free coordinates and more in the full space products of matrices take several too. What is proved is
+    /// the same, bounds may differ in their last digits. Runs with --cert, --json or a picture go one way, as what
+    /// they keep is in the order of the path
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(0..=1024))]
+    threads: u16,
+    /// Write the proof as a certificate, and check it
+    ///
+    /// It is checked as `verify` does; only for runs in certified mode. Where a certificate of a closed run does not
+    /// pass, the exit code is that of `verify`
+    #[arg(long, value_name = "FILE")]
+    cert: Option<PathBuf>,
+    /// Do not check the certificate that was written
+    #[arg(long, requires = "cert", hide_short_help = true)]
+    no_verify: bool,
+    /// Write the result as JSON; `-` is standard output
+    ///
+    /// One line for each problem
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+    /// Certified mode: the number of figures along the path in the JSON and the page
+    #[arg(long, value_name = "N", value_parser = samples, hide_short_help = true)]
+    samples: Option<usize>,
+    #[command(flatten)]
+    take: Take,
+    #[command(flatten)]
+    measured: Measured,
+    #[command(flatten)]
+    pictures: Pictures,
+    /// Print one line for each problem
+    #[arg(long)]
+    summary: bool,
+    /// Print all solutions, however many lines they take
+    #[arg(long, conflicts_with = "summary")]
+    all: bool,
+    /// Do not say how many of all figures the path has
+    ///
+    /// That is looked for, with proof, where it takes but some milliseconds: of distances alone, up to 10 points,
+    /// with a construction plan of one driving parameter
+    #[arg(long, hide_short_help = true)]
+    no_count: bool,
+    #[command(flatten)]
+    left_out: LeftOut,
+    #[command(flatten)]
+    time: interrupt::Time,
+    /// Print no table and no progress
+    #[arg(long)]
+    quiet: bool,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Mode {
+    Certified,
+    Float,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Space {
+    Full,
+    Reduced,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Preset {
+    Default,
+    Paper,
+}
+
+fn alpha(text: &str) -> Result<f64, String> {
+    let must = "must be a number greater than 0 and less than 0.5";
+    number(text, |x| *x > 0.0 && *x < 0.5, must)
+}
+
+pub(super) fn samples(text: &str) -> Result<usize, String> {
+    let must = "must be a whole number from 2 to 100000";
+    number(text, |n| (2..=100_000).contains(n), must)
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    let must = "must be a finite number greater than 0";
+    number(text, |x: &f64| *x > 0.0 && x.is_finite(), must)
+}
+
+impl Arguments {
+    /// Refuses what does not go together.
+    fn check(&self) -> Result<(), String> {
+        let (is_float, is_one) = (self.mode == Mode::Float, self.files.len() == 1);
+        let refused = [
+            (
+                !is_float && self.preset == Preset::Paper,
+                "`--preset paper` is a way of float mode: add `--mode float`",
+            ),
+            (
+                is_float && self.cert.is_some(),
+                "float mode proves nothing: leave out `--cert`, or `--mode float`",
+            ),
+            (
+                is_float && self.samples.is_some(),
+                "float mode keeps no path: leave out `--samples`, or `--mode float`",
+            ),
+            (
+                !is_float && self.tolerance.is_some(),
+                "`--tolerance` is for float mode: add `--mode float`, or use `--tube-radius`",
+            ),
+            (
+                is_float && self.tube_radius.is_some(),
+                "float mode has no tubes: leave out `--tube-radius`, or use `--tolerance`",
+            ),
+            (
+                is_float && self.no_extended,
+                "float mode has no extended precision: leave out `--no-extended`, or `--mode float`",
+            ),
+            (
+                !is_one && self.cert.is_some(),
+                "`--cert` is for one problem: name one file",
+            ),
+            (
+                !is_one && self.take.is_wanted(),
+                "`--out` is for one problem: name one file",
+            ),
+            (
+                !is_one && !self.measured.is_empty(),
+                "`--measure` is for one problem: name one file",
+            ),
+            (
+                !is_one && self.pictures.files().next().is_some(),
+                "a page and pictures are of one problem: name one file",
+            ),
+        ];
+        if let Some((_, why)) = refused.into_iter().find(|(is_so, _)| *is_so) {
+            return Err(why.to_owned());
+        }
+        for file in &self.files {
+            self.take.check(file)?;
+        }
+        input::only_one_standard_input(self.files.iter().map(PathBuf::as_path))
+    }
+
+    fn options(&self) -> Options {
+        let options = match (self.mode, self.preset) {
+            (Mode::Certified, _) => Options::certified(),
+            (Mode::Float, Preset::Default) => Options::float(track::Space::Reduced),
+            (Mode::Float, Preset::Paper) => Options::paper(track::Space::Reduced),
+        };
+        Options {
+            space: match self.space {
+                Some(Space::Full) => track::Space::Full,
+                Some(Space::Reduced) => track::Space::Reduced,
+                None => options.space,
+            },
+            max_step: self.max_step,
+            tube_radius: self.tube_radius,
+            tolerance: self.tolerance,
+            reverse: self.reverse,
+            alpha: self.alpha,
+            extended: !self.no_extended,
+            threads: self.threads.into(),
+            redundant_tolerance: self.left_out.redundant_tolerance,
+            ..options
+        }
+    }
+}
+
+/// Runs the verb and returns the exit code.
+pub fn run(arguments: &Arguments) -> u8 {
+    output::exit_code(try_run(arguments))
+}
+
+fn try_run(arguments: &Arguments) -> Result<u8, String> {
+    arguments.time.begin();
+    arguments.check()?;
+    // Whatever is wrong is said before anything runs.
+    let problems = arguments.files.iter().map(|file| arguments.read(file));
+    let problems = problems.collect::<Result<Vec<Asked>, String>>()?;
+    let json = output::beside(&arguments.files, arguments.json.as_deref())?;
+    output::refuse_read(&arguments.files, arguments.cert.as_deref())?;
+    let pictures = arguments.pictures.places(&arguments.files)?;
+    // Before any file is begun, so that an interrupt leaves none behind.
+    interrupt::flag();
+    let cert = arguments.cert.as_deref().map(Beside::new).transpose()?;
+    let standard = json == Some(Destination::StandardOutput);
+    if standard && pictures.use_standard_output() {
+        return Err("only one result can go to standard output".to_owned());
+    }
+    let silent = arguments.quiet || standard || pictures.use_standard_output();
+    let mut told = Told::new(arguments, (json.is_some(), pictures, cert), silent);
+    for (k, (asked, file)) in problems.iter().zip(&arguments.files).enumerate() {
+        if told.answer(k, asked, file)? {
+            break;
+        }
+    }
+    // With one problem the file is written even where nobody reads the table any more: `print` does not fail
+    // for that.
+    if let Some(json) = &json {
+        told.written &= json.write(&told.lines);
+    }
+    Ok(if told.written { told.worst } else { BAD_INPUT })
+}
