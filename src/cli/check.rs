@@ -45,35 +45,33 @@ const PATTERN: usize = 40;
 
 /// Runs the verb and returns the exit code.
 pub fn run(arguments: &Arguments) -> u8 {
+    output::exit_code(try_run(arguments))
+}
+
+fn try_run(arguments: &Arguments) -> Result<u8, String> {
+    let printed = |text: &str, code| match output::print(text) {
+        true => Ok(code),
+        false => Ok(BAD_INPUT),
+    };
     let format = Format::of(&arguments.file.display().to_string());
     let is_molecule = matches!(format, Some(Format::Xyz | Format::Sdf | Format::Pdb));
     if format.is_some()
         && !(is_molecule && arguments.sketch.is_some())
         && !is_single(&arguments.file, is_molecule)
     {
-        return match describe_sketches(&arguments.file, arguments.sketch.as_deref()) {
-            Ok((text, code)) if output::print(&text) => code,
-            Ok(_) => BAD_INPUT,
-            Err(message) => {
-                output::complain(&message);
-                BAD_INPUT
-            }
-        };
+        let (text, code) = describe_sketches(&arguments.file, arguments.sketch.as_deref())?;
+        return printed(&text, code);
     }
     let problem = match input::read(&arguments.file, arguments.sketch.as_deref()) {
         Ok(problem) => problem,
         Err(message) => {
-            match Loose::of(&arguments.file) {
-                None => output::complain(&message),
-                Some(loose) => {
-                    output::complain(&loose.decide(&message));
-                    output::print(&loose.in_words());
-                    if !loose.census.surplus.is_empty() {
-                        return OVER;
-                    }
-                }
-            }
-            return BAD_INPUT;
+            let loose = Loose::of(&arguments.file).ok_or_else(|| message.clone())?;
+            output::complain(&loose.decide(&message));
+            output::print(&loose.in_words());
+            return Ok(match loose.census.surplus.is_empty() {
+                true => BAD_INPUT,
+                false => OVER,
+            });
         }
     };
     let mut text = describe(&problem, None);
@@ -92,24 +90,11 @@ pub fn run(arguments: &Arguments) -> u8 {
     if !problem.is_distances_only() {
         text += "construction plan\n  none in closed form: those are for distances between points alone; --space reduced orders \
                  unknowns and equations by itself\n";
-        return if output::print(&text) {
-            code
-        } else {
-            BAD_INPUT
-        };
+        return printed(&text, code);
     }
-    match construction_plan(&problem, arguments.pattern) {
-        Ok(plan) => text += &plan,
-        Err(error) => {
-            output::complain(&format!("{}: {error}", input::name(&arguments.file)));
-            return BAD_INPUT;
-        }
-    }
-    if output::print(&text) {
-        CLOSED
-    } else {
-        BAD_INPUT
-    }
+    let plan = construction_plan(&problem, arguments.pattern);
+    text += &plan.map_err(|error| format!("{}: {error}", input::name(&arguments.file)))?;
+    printed(&text, CLOSED)
 }
 
 /// The exit code of what was read.

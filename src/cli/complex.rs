@@ -93,11 +93,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             ));
         }
     }
-    let json = arguments
-        .json
-        .as_deref()
-        .map(Destination::new)
-        .transpose()?;
+    let json = output::beside([], arguments.json.as_deref())?;
     let cert = arguments.cert.as_deref().map(Beside::new).transpose()?;
     let line = ProgressLine::new(!arguments.quiet, "");
     let tell = |done: usize, all: usize| {

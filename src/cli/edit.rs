@@ -197,14 +197,13 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let json = beside([&arguments.file], arguments.json.as_deref())?;
     let pictures = arguments.pictures.places([&arguments.file])?;
     // Before any file is begun, so that an interrupt leaves none behind.
-    let cancel = interrupt::flag();
+    interrupt::flag();
     let begun = cert.map(Beside::new).transpose()?;
     let writer = |beside| Writer::new(BufWriter::new(Beside::file(beside)), &problem);
     let mut witness = begun.as_ref().map(writer);
     let mut control = Control {
-        cancel: Some(cancel),
         witness: witness.as_mut().map(|writer| writer as &mut dyn Witness),
-        ..Control::default()
+        ..interrupt::control()
     };
     let elsewhere = json == Some(Destination::StandardOutput) || pictures.use_standard_output();
     if !arguments.quiet && !elsewhere {
@@ -229,14 +228,12 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     loaded.add_left_out(&mut edited.account, Some(&edited.points));
     let moved = session.moved();
 
-    let (mut written, verdict) = match is_unwitnessed(&arguments.file, cert, &edited) {
-        true => (true, None),
-        false => commit(
-            (begun.as_ref(), witness),
-            cert.filter(|_| !arguments.no_verify),
-            arguments.quiet,
-        )?,
-    };
+    let (mut written, verdict) = commit(
+        (begun.as_ref(), witness),
+        (&arguments.file, &edited),
+        cert.filter(|_| !arguments.no_verify),
+        arguments.quiet,
+    )?;
     let figure = || std::iter::once((&edited.points[..], &edited.objects[..]));
     let document = || {
         let mut value = edit_to_document(&problem, &edited, &session);
@@ -307,19 +304,6 @@ pub(super) fn certified(
     })
 }
 
-/// Whether a certificate would say more than the edit does: it is about the equations, which go on where a line or arc vanishes.
-/// That none is written is said.
-pub(super) fn is_unwitnessed(file: &Path, cert: Option<&Path>, edited: &Edited) -> bool {
-    match (&edited.ending, cert) {
-        (Ending::Stopped(stop), Some(_)) if stop.kind == StopKind::Vanishes => {
-            let text = format!("no certificate was written: {stop}");
-            output::complain(&in_file(file, &text));
-            true
-        }
-        _ => false,
-    }
-}
-
 /// Why an edit stopped, if it did.
 pub(super) fn reason(edited: &Edited) -> Option<&str> {
     match &edited.ending {
@@ -352,15 +336,24 @@ pub(super) fn carried(
 }
 
 /// Ends a certificate, and checks it if its `path` is given: whether it was written, and the exit code where it does not
-/// pass.
+/// pass. None is written where it would say more than the edit does, and that is said: it is about the equations, which go on where a line
+/// or arc vanishes.
 pub(super) fn commit(
     (beside, writer): (Option<&Beside>, Option<Writer<'_, BufWriter<&File>>>),
+    (file, edited): (&Path, &Edited),
     path: Option<&Path>,
     quiet: bool,
 ) -> Result<(bool, Option<u8>), String> {
     let (Some(beside), Some(writer)) = (beside, writer) else {
         return Ok((true, None));
     };
+    if let Ending::Stopped(stop) = &edited.ending
+        && stop.kind == StopKind::Vanishes
+    {
+        let text = format!("no certificate was written: {stop}");
+        output::complain(&in_file(file, &text));
+        return Ok((true, None));
+    }
     match beside.commit(writer.finish().map(|_| ())) {
         false => Ok((false, None)),
         true => Ok((true, check_written(path, false, quiet)?)),

@@ -1,8 +1,6 @@
 //! `krawl sweep`: drives a mechanism through a range of one dimension.
 
-use super::edit::{
-    LeftOut, carried, certified, commit, drawn_in_words, exit_code, is_unwitnessed, open, reason,
-};
+use super::edit::{LeftOut, carried, certified, commit, drawn_in_words, exit_code, open, reason};
 use super::measured::Measured;
 use super::output::{self, Beside, Destination, beside};
 use super::pictures::Pictures;
@@ -154,14 +152,13 @@ fn drive(arguments: &Arguments, vary: &str, ends: [&str; 2]) -> Result<u8, Strin
     let json = beside([&arguments.file], arguments.json.as_deref())?;
     let csv = beside([&arguments.file], arguments.csv.as_deref())?;
     let pictures = arguments.pictures.places([&arguments.file])?;
-    let cancel = interrupt::flag();
+    interrupt::flag();
     let begun = cert.map(Beside::new).transpose()?;
     let writer = |beside| Writer::new(BufWriter::new(Beside::file(beside)), &problem);
     let mut witness = begun.as_ref().map(writer);
     let mut control = Control {
-        cancel: Some(cancel),
         witness: witness.as_mut().map(|writer| writer as &mut dyn Witness),
-        ..Control::default()
+        ..interrupt::control()
     };
     let mut session = match open(
         &problem,
@@ -180,14 +177,12 @@ fn drive(arguments: &Arguments, vary: &str, ends: [&str; 2]) -> Result<u8, Strin
         loaded.add_left_out(&mut sweep.account, Some(&frame.points));
     }
     let last = sweep.end.as_ref().unwrap_or(&sweep.approach);
-    let (mut written, verdict) = match is_unwitnessed(&arguments.file, cert, last) {
-        true => (true, None),
-        false => commit(
-            (begun.as_ref(), witness),
-            cert.filter(|_| !arguments.no_verify),
-            arguments.quiet,
-        )?,
-    };
+    let (mut written, verdict) = commit(
+        (begun.as_ref(), witness),
+        (&arguments.file, last),
+        cert.filter(|_| !arguments.no_verify),
+        arguments.quiet,
+    )?;
     let frames = || {
         sweep
             .frames

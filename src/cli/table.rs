@@ -10,7 +10,6 @@ use krawl::interval::Interval;
 use krawl::problem::Decimal;
 use krawl::report::{Placed, account_in_words, edit_in_words, frames_to_csv};
 use krawl::system::Located;
-use krawl::track::Control;
 use std::collections::HashSet;
 use std::fs;
 use std::io::Write;
@@ -83,11 +82,7 @@ pub(super) fn run(arguments: &Arguments, file: &Path) -> Result<u8, String> {
     if let Some(folder) = folder {
         fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
     }
-    let cancel = interrupt::flag();
-    let mut control = Control {
-        cancel: Some(cancel),
-        ..Control::default()
-    };
+    let mut control = interrupt::control();
     let options = arguments.left_out.options();
     let mut session = match open(problem, &arguments.file, &options, &mut control)? {
         Ok(session) => session,

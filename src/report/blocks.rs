@@ -1,7 +1,8 @@
 //! A problem that was followed block by block, and the figures of the whole that come of it.
 
-use super::columns::{DIGITS, written};
+use super::columns::written;
 use super::edit::{points_to_value, write_points};
+use super::figures::{IN_JSON, Listed, write_more};
 use super::json::Run;
 use crate::blocks::{Combined, CombinedChoice};
 use crate::problem::Problem;
@@ -21,13 +22,6 @@ pub struct BlockRuns<'a> {
     /// The blocks, and what came of each.
     pub runs: &'a [(Problem, Outcome)],
 }
-
-/// Figures are listed in a table as long as they fit in this many lines.
-const LINES: usize = 60;
-/// The most figures that are listed in JSON where not all are asked for.
-const LISTED: u64 = 100;
-/// The most figures that are listed where all are asked for.
-const MOST: u64 = 1_000_000;
 
 impl BlockRuns<'_> {
     /// The figures of the whole; `None` if the blocks do not hang together.
@@ -103,12 +97,8 @@ impl BlockRuns<'_> {
         };
         let count = combined.count().unwrap_or(u64::MAX);
         let each = self.problem.points.len() as u64 + 2;
-        let most = match all {
-            true => MOST,
-            false if count.saturating_mul(each) <= LINES as u64 => count,
-            false => (LINES as u64 / 2 / each).max(1),
-        };
-        for number in 0..count.min(most) {
+        let numbers = Listed::of(all).in_table(count, each);
+        for number in numbers.clone() {
             let choices = combined.choices(number);
             writeln!(out, "\nFigure {}: {}", number + 1, in_words(&choices))?;
             match combined.figure(&choices) {
@@ -116,17 +106,7 @@ impl BlockRuns<'_> {
                 None => writeln!(out, "  (its boxes are too wide to put the blocks together)")?,
             }
         }
-        if count > most {
-            writeln!(
-                out,
-                "\n... and {} more: `--all` prints them, `--json FILE` writes the first {LISTED} (with `--all` all).",
-                count - most
-            )?;
-        }
-        if count > 0 {
-            writeln!(out, "\n{DIGITS}")?;
-        }
-        Ok(())
+        write_more(out, count, numbers.end)
     }
 
     /// The result as a value in memory: that of the whole, which stopped, with `blocks` added (docs/using/programs.md).
@@ -140,11 +120,9 @@ impl BlockRuns<'_> {
             .collect();
         let combined = self.combined();
         let count = combined.as_ref().and_then(Combined::count);
-        let listed = count
-            .unwrap_or(u64::MAX)
-            .min(if all { MOST } else { LISTED });
+        let numbers = Listed::of(all).numbers(count.unwrap_or(u64::MAX), IN_JSON);
         let figures = combined.iter().flat_map(|combined| {
-            (0..listed).map(|number| {
+            numbers.clone().map(|number| {
                 let choices = combined.choices(number);
                 let points = combined.figure(&choices);
                 let chosen = choices.iter().map(

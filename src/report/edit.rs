@@ -570,27 +570,15 @@ pub fn decomposition_in_words(found: &Decomposition) -> String {
         );
     }
     let held = found.account.names_held();
-    if !held.is_empty() {
-        let _ = writeln!(
-            out,
-            "  free (edits hold them where they are): {}",
-            list(&held, LISTED)
-        );
-    }
     let (follow, seem) = left_out(&found.account);
-    if !follow.is_empty() {
-        let _ = writeln!(
-            out,
-            "  follow from the others, proved: {}",
-            list(&follow, LISTED)
-        );
-    }
-    if !seem.is_empty() {
-        let _ = writeln!(
-            out,
-            "  seem to follow from the others: {}",
-            list(&seem, LISTED)
-        );
+    for (what, names) in [
+        ("free (edits hold them where they are)", held),
+        ("follow from the others, proved", follow),
+        ("seem to follow from the others", seem),
+    ] {
+        if !names.is_empty() {
+            let _ = writeln!(out, "  {what}: {}", list(&names, LISTED));
+        }
     }
     if let Some(singular) = &found.singular {
         let _ = writeln!(out, "  {}", singular.place_in_words());

@@ -11,11 +11,11 @@ use serde_json::{Value, json};
 use std::fmt::Write;
 
 /// Figures that are listed in a table: as long as they fit in so many lines.
-const LINES: usize = 60;
+const LINES: u64 = 60;
 /// Names that are listed before "and n more".
 const LISTED: usize = 8;
 /// Figures that are listed in JSON where not all are asked for.
-const IN_JSON: u64 = 100;
+pub(super) const IN_JSON: u64 = 100;
 /// Figures that are listed, in a table or in JSON, where all are asked for.
 const MOST: u64 = 1_000_000;
 
@@ -31,13 +31,45 @@ pub enum Listed {
 }
 
 impl Listed {
+    /// All where they are asked for, or the first ones.
+    pub fn of(all: bool) -> Self {
+        match all {
+            true => Listed::All,
+            false => Listed::Some,
+        }
+    }
+
     /// The numbers of those listed, of so many, the first `some` where not all are asked for.
-    fn numbers(self, count: u64, some: u64) -> std::ops::Range<u64> {
+    pub(super) fn numbers(self, count: u64, some: u64) -> std::ops::Range<u64> {
         match self {
             Listed::Some => 0..count.min(some),
             Listed::All => 0..count.min(MOST),
             Listed::Only(number) => number..number + 1,
         }
+    }
+
+    /// The numbers of those that a table lists, of so many that take so many lines each.
+    pub(super) fn in_table(self, count: u64, each: u64) -> std::ops::Range<u64> {
+        let some = match count.saturating_mul(each) <= LINES {
+            true => count,
+            false => (LINES / 2 / each).max(1),
+        };
+        self.numbers(count, some)
+    }
+}
+
+/// What is said below the figures of a table, of which so many are there and those up to `end` are listed.
+pub(super) fn write_more(out: &mut String, count: u64, end: u64) -> std::fmt::Result {
+    if count > end {
+        writeln!(
+            out,
+            "\n... and {} more: `--all` prints them, `--json FILE` writes the first {IN_JSON} (with `--all` all).",
+            count - end
+        )?;
+    }
+    match count {
+        0 => Ok(()),
+        _ => writeln!(out, "\n{DIGITS}"),
     }
 }
 
@@ -252,11 +284,7 @@ fn write_figures(out: &mut String, figures: &Figures, listed: Listed) -> std::fm
         )
     });
     let each = (problem.points.len() + circles.count()) as u64 + 2;
-    let some = match count.saturating_mul(each) <= LINES as u64 {
-        true => count,
-        false => (LINES as u64 / 2 / each).max(1),
-    };
-    let numbers = listed.numbers(count, some);
+    let numbers = listed.in_table(count, each);
     for number in numbers.clone() {
         let chosen = chosen_in_words(&figures.chosen(number));
         writeln!(out, "\nFigure {}{chosen}", number + 1)?;
@@ -265,17 +293,11 @@ fn write_figures(out: &mut String, figures: &Figures, listed: Listed) -> std::fm
         write_points(out, problem, &points)?;
         write_numbers(out, problem, &objects)?;
     }
-    if !matches!(listed, Listed::Only(_)) && count > numbers.end {
-        writeln!(
-            out,
-            "\n... and {} more: `--all` prints them, `--json FILE` writes the first {IN_JSON} (with `--all` all).",
-            count - numbers.end
-        )?;
-    }
-    if count > 0 {
-        writeln!(out, "\n{DIGITS}")?;
-    }
-    Ok(())
+    let end = match listed {
+        Listed::Only(_) => count,
+        _ => numbers.end,
+    };
+    write_more(out, count, end)
 }
 
 /// The names of the senses of a figure that stand to the sketch's in some way, each once.

@@ -171,14 +171,9 @@ impl Measures {
     pub fn over<'f>(&self, figures: impl Iterator<Item = Placed<'f>>) -> String {
         let rows: Vec<Vec<Interval>> = figures.map(|figure| self.of(figure)).collect();
         let lines = self.names().enumerate().map(|(k, name)| {
-            let least = rows
-                .iter()
-                .map(|row| row[k])
-                .min_by(|a, b| a.inf().total_cmp(&b.inf()));
-            let most = rows
-                .iter()
-                .map(|row| row[k])
-                .max_by(|a, b| a.sup().total_cmp(&b.sup()));
+            let all = rows.iter().map(|row| row[k]);
+            let least = all.clone().min_by(|a, b| a.inf().total_cmp(&b.inf()));
+            let most = all.max_by(|a, b| a.sup().total_cmp(&b.sup()));
             match (least, most) {
                 (Some(least), Some(most)) => {
                     let (least, most) = (certain_digits(least), certain_digits(most));

@@ -19,33 +19,28 @@ fn write_theorem(out: &mut String, verdict: &Verdict, time: Duration) -> std::fm
     let (low, high) = verdict.t_range;
     match &verdict.outcome {
         Outcome::Verified if !verdict.arcs.is_empty() => write_edits(out, verdict)?,
-        Outcome::Verified if verdict.is_open => writeln!(
-            out,
-            "{name}: VERIFIED.\n\
-             Theorem. Let H(X, t) = 0 be the equations of the problem in this certificate, for the exact decimals in \
-             it, and S {}.\n\
-             1. From the sketch both ways the certificate's tubes hold an arc of S, {}.\n\
-             2. The arc has exactly {} with t = 1{}, one in each of {}; {}.\n\
-             3. On it t stays between {low:.6} and {high:.6}, and all lengths stay positive.",
-            curve_in_words(verdict),
-            regular_in_words(verdict),
-            counted(verdict.solutions.len(), "point"),
-            degenerate_in_words(verdict),
-            counted(verdict.solutions.len(), "disjoint box"),
-            classes_in_words(&verdict.problem, &verdict.classes)
-        )?,
         Outcome::Verified => {
             let count = verdict.solutions.len();
+            let regular = regular_in_words(verdict);
+            let (first, curve, on_it) = match verdict.is_open {
+                true => (
+                    format!(
+                        "From the sketch both ways the certificate's tubes hold an arc of S, {regular}"
+                    ),
+                    "The arc",
+                    "it",
+                ),
+                false => (format!("S is a closed curve, {regular}"), "S", "S"),
+            };
             writeln!(
                 out,
                 "{name}: VERIFIED.\n\
                  Theorem. Let H(X, t) = 0 be the equations of the problem in this certificate, \
                  for the exact decimals in it, and S {}.\n\
-                 1. S is a closed curve, {}.\n\
-                 2. S has exactly {} with t = 1{}, one in each of {}; {}.\n\
-                 3. On S t stays between {low:.6} and {high:.6}, and all lengths stay positive.",
+                 1. {first}.\n\
+                 2. {curve} has exactly {} with t = 1{}, one in each of {}; {}.\n\
+                 3. On {on_it} t stays between {low:.6} and {high:.6}, and all lengths stay positive.",
                 curve_in_words(verdict),
-                regular_in_words(verdict),
                 counted(count, "point"),
                 degenerate_in_words(verdict),
                 counted(count, "disjoint box"),

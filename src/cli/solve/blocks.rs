@@ -89,10 +89,7 @@ impl Arguments {
     pub(super) fn by_blocks(&self, problem: &Problem) -> Result<Found, String> {
         let mut control = interrupt::control();
         let figures = Figures::find(problem, &self.options(), &mut control)?;
-        let mut listed = match self.all {
-            true => Listed::All,
-            false => Listed::Some,
-        };
+        let mut listed = Listed::of(self.all);
         let mut code = match figures.doubt() {
             Some(_) => STOPPED,
             None => CLOSED,

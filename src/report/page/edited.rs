@@ -27,7 +27,7 @@ pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
     // What is drawn beside the figure in the file is that too where the new values were not reached.
     if !name.is_empty() {
         let new = |name: &str| Some(shown(&digits(pair(&result["dimensions"][name])?)));
-        page.labels = reader.labels(new)?;
+        page.labels = reader.labels(new);
         page.figures.push(Figure {
             name: name.into(),
             note: "the one and only continuation".into(),

@@ -89,14 +89,13 @@ impl Page {
         let extents = frames.iter().map(|f| self.extent(f.points, f.outlines));
         let extents: Vec<Vec<f64>> = extents.collect();
         let projection = Projection::of(self, extents.iter().map(Vec::as_slice));
-        let places: Vec<Vec<[f64; 2]>> = frames
-            .iter()
-            .map(|f| {
-                let places = projection.places(f.points).into_iter();
-                let on_paper = |x: f64| SIDE / 2.0 + 0.44 * SIDE * x;
-                places.map(|[x, y, _]| [on_paper(x), on_paper(y)]).collect()
-            })
-            .collect();
+        let on_paper = |numbers: &[f64]| -> Vec<[f64; 2]> {
+            let places = projection.places(numbers).into_iter();
+            places
+                .map(|[x, y, _]| [x, y].map(|x| SIDE / 2.0 + 0.44 * SIDE * x))
+                .collect()
+        };
+        let places: Vec<Vec<[f64; 2]>> = frames.iter().map(|f| on_paper(f.points)).collect();
         begin(out, SIDE, SIDE + CHART, &self.title)?;
         let animate = |out: &mut String, what: &str, values: Vec<String>| {
             writeln!(
@@ -109,11 +108,12 @@ impl Page {
         for (k, shape) in self.shapes.iter().enumerate() {
             let drawn = frames.iter().map(|f| {
                 let numbers = f.outlines.get(k)?;
-                let on_paper = |x: f64| SIDE / 2.0 + 0.44 * SIDE * x;
-                let places = projection.places(numbers).into_iter();
-                let places: Vec<[f64; 2]> =
-                    places.map(|[x, y, _]| [on_paper(x), on_paper(y)]).collect();
-                Drawn::new(shape, numbers, &places, 0.44 * SIDE / projection.size())
+                Drawn::new(
+                    shape,
+                    numbers,
+                    &on_paper(numbers),
+                    0.44 * SIDE / projection.size(),
+                )
             });
             let Some(drawn) = drawn.collect::<Option<Vec<Drawn>>>() else {
                 continue;

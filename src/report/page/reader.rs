@@ -6,6 +6,7 @@ use crate::interval::vector::cross;
 use crate::places::array;
 use crate::report::certain_digits;
 use crate::report::columns::DIGITS;
+use serde::Deserialize;
 use serde_json::{Value, json};
 
 /// Why a document is no result that can be shown.
@@ -66,6 +67,11 @@ pub(super) fn choices(choices: &Value) -> Option<String> {
         Some(format!("block {block} solution {solution}{mirrored}"))
     });
     Some(each.collect::<Option<Vec<_>>>()?.join(", "))
+}
+
+/// What stands under a key, in the form that is wanted.
+fn read<'a, T: Deserialize<'a>>(value: &'a Value, key: &'static str) -> Result<T, ShowError> {
+    T::deserialize(&value[key]).map_err(|_| wrong(key))
 }
 
 /// Numbers, in the first places of three.
@@ -131,8 +137,27 @@ pub(super) struct Reader<'a> {
     pub result: &'a Value,
     pub dimension: usize,
     pub names: Vec<String>,
+    constraints: Vec<Constraint<'a>>,
+    objects: Vec<Object<'a>>,
     origin: [f64; 3],
     axes: [[f64; 3]; 3],
+}
+
+/// A constraint, as results have it.
+#[derive(Deserialize)]
+struct Constraint<'a> {
+    kind: &'a str,
+    items: Vec<&'a str>,
+    name: Option<&'a str>,
+    value: Option<&'a str>,
+}
+
+/// An object, as results have it: the points that it goes through.
+#[derive(Deserialize)]
+struct Object<'a> {
+    name: &'a str,
+    kind: &'a str,
+    points: Vec<&'a str>,
 }
 
 impl<'a> Reader<'a> {
@@ -150,8 +175,6 @@ impl<'a> Reader<'a> {
             Some(d @ (2 | 3)) => d as usize,
             _ => return Err(wrong("dimension")),
         };
-        let names = list(result, "names")?.iter();
-        let names = names.map(|name| name.as_str().map(str::to_owned).ok_or(wrong("names")));
         let mut origin = [0.0; 3];
         let mut axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
         if !result["frame"].is_null() {
@@ -164,7 +187,9 @@ impl<'a> Reader<'a> {
         Ok(Reader {
             result,
             dimension,
-            names: names.collect::<Result<_, _>>()?,
+            names: read(result, "names")?,
+            constraints: read(result, "constraints")?,
+            objects: read::<Option<_>>(result, "objects")?.unwrap_or_default(),
             origin,
             axes,
         })
@@ -177,7 +202,7 @@ impl<'a> Reader<'a> {
             dimension: self.dimension,
             points: self.names.clone(),
             bars: self.bars()?,
-            labels: self.labels(|_| None)?,
+            labels: self.labels(|_| None),
             shapes: self.shapes(),
             figures: vec![Figure {
                 name: name.into(),
@@ -237,9 +262,13 @@ impl<'a> Reader<'a> {
         self.outlines(points, objects, |p| self.there(p), |v| self.turned(v))
     }
 
-    fn number(&self, name: &Value) -> Option<usize> {
-        let name = name.as_str()?;
+    fn number(&self, name: &str) -> Option<usize> {
         self.names.iter().position(|known| known == name)
+    }
+
+    /// The points of these names, if all are points.
+    fn numbers(&self, names: &[&str]) -> Option<Vec<usize>> {
+        names.iter().map(|name| self.number(name)).collect()
     }
 
     /// The sketch, as it is drawn behind others.
@@ -261,30 +290,28 @@ impl<'a> Reader<'a> {
 
     /// The ends of a dimension's bar, where it has one.
     pub fn ends_of(&self, name: &str) -> Option<[usize; 2]> {
-        let mut all = self.result["constraints"].as_array()?.iter();
-        let constraint = all.find(|constraint| constraint["name"].as_str() == Some(name))?;
-        let is_distance = constraint["kind"].as_str()?.ends_with("distance");
-        let ends = constraint["items"].as_array().filter(|_| is_distance)?;
-        let ends: Option<Vec<usize>> = ends.iter().map(|name| self.number(name)).collect();
-        ends?.try_into().ok()
+        let mut all = self.constraints.iter();
+        let constraint = all.find(|constraint| constraint.name == Some(name))?;
+        let is_distance = constraint.kind.ends_with("distance");
+        let ends = is_distance.then(|| self.numbers(&constraint.items));
+        ends??.try_into().ok()
     }
 
     fn bars(&self) -> Result<Vec<Bar>, ShowError> {
         let mut bars = Vec::new();
-        for constraint in list(self.result, "constraints")? {
-            let items = list(constraint, "items").map_err(|_| wrong("constraints"))?;
-            let value = constraint["value"].as_str();
-            let target = value.and_then(|value| value.parse::<f64>().ok());
-            let (label, target) = match (constraint["kind"].as_str(), value) {
-                (Some("distance"), Some(value)) => (shown(value), target),
-                (Some("squared distance"), Some(value)) => {
+        for constraint in &self.constraints {
+            let target = constraint.value.and_then(|value| value.parse::<f64>().ok());
+            let (label, target) = match (constraint.kind, constraint.value) {
+                ("distance", Some(value)) => (shown(value), target),
+                ("squared distance", Some(value)) => {
                     (format!("√{}", shown(value)), target.map(f64::sqrt))
                 }
                 // Other kinds are no lines.
                 _ => continue,
             };
-            let ends: Option<Vec<usize>> = items.iter().map(|name| self.number(name)).collect();
-            let ends = ends.ok_or(wrong("constraints"))?;
+            let ends = self
+                .numbers(&constraint.items)
+                .ok_or(wrong("constraints"))?;
             if let [a, b] = ends[..] {
                 bars.push(Bar {
                     ends: [a, b],
@@ -295,12 +322,12 @@ impl<'a> Reader<'a> {
         }
         // Lines through points and rigid bodies hold points together too.
         let mut pairs: Vec<[usize; 2]> = Vec::new();
-        for object in self.result["objects"].as_array().into_iter().flatten() {
-            let points = object["points"].as_array().into_iter().flatten();
+        for object in &self.objects {
+            let points = object.points.iter();
             let points: Vec<usize> = points.filter_map(|name| self.number(name)).collect();
-            match object["kind"].as_str() {
-                Some("line") => pairs.extend(points.windows(2).map(|w| [w[0], w[1]])),
-                Some("body") => {
+            match object.kind {
+                "line" => pairs.extend(points.windows(2).map(|w| [w[0], w[1]])),
+                "body" => {
                     let with = |(k, &a): (usize, &usize)| {
                         points[..k].iter().map(move |&b| [a, b]).collect::<Vec<_>>()
                     };
@@ -310,15 +337,12 @@ impl<'a> Reader<'a> {
             }
         }
         // Whoever says that two points are level, or that what is between them is parallel to something, has a line in mind.
-        for constraint in list(self.result, "constraints")? {
-            let is_of_lines = |kind| {
-                matches!(
-                    kind,
-                    "horizontal" | "vertical" | "parallel" | "perpendicular" | "equal"
-                )
-            };
-            if constraint["kind"].as_str().is_some_and(is_of_lines) {
-                let items = constraint["items"].as_array().into_iter().flatten();
+        for constraint in &self.constraints {
+            if matches!(
+                constraint.kind,
+                "horizontal" | "vertical" | "parallel" | "perpendicular" | "equal"
+            ) {
+                let items = constraint.items.iter();
                 let points: Vec<usize> = items.map_while(|name| self.number(name)).collect();
                 pairs.extend(points.as_chunks().0);
             }
@@ -338,24 +362,19 @@ impl<'a> Reader<'a> {
 
     /// The dimensions that are no bars, each where the points are that it is about: the text with the number that stands in
     /// the file, or with another one for those that `now` has one for, by name.
-    pub fn labels(&self, now: impl Fn(&str) -> Option<String>) -> Result<Vec<Label>, ShowError> {
-        let objects = self.result["objects"].as_array().map_or(&[][..], |o| o);
-        let points_of = |item: &Value| -> Vec<usize> {
+    pub fn labels(&self, now: impl Fn(&str) -> Option<String>) -> Vec<Label> {
+        let points_of = |item: &&str| -> Vec<usize> {
             if let Some(point) = self.number(item) {
                 return vec![point];
             }
-            let object = objects.iter().find(|object| object["name"] == *item);
-            let points = object.and_then(|object| object["points"].as_array());
-            let points = points.into_iter().flatten();
+            let object = self.objects.iter().find(|object| object.name == *item);
+            let points = object.into_iter().flat_map(|object| &object.points);
             points.filter_map(|name| self.number(name)).collect()
         };
         let mut labels = Vec::new();
-        for constraint in list(self.result, "constraints")? {
-            let (Some(kind), Some(value), Some(items)) = (
-                constraint["kind"].as_str(),
-                constraint["value"].as_str(),
-                constraint["items"].as_array(),
-            ) else {
+        for constraint in &self.constraints {
+            let (kind, items) = (constraint.kind, &constraint.items);
+            let Some(value) = constraint.value else {
                 continue;
             };
             let worded = |value: &str| match kind {
@@ -363,9 +382,8 @@ impl<'a> Reader<'a> {
                 "radii" => format!("r {value}"),
                 "diameters" => format!("⌀ {value}"),
                 _ => {
-                    let names = strings(&constraint["items"]);
                     let what = if kind == "distances" { "" } else { kind };
-                    format!("{what} {} {value}", names.join("–"))
+                    format!("{what} {} {value}", items.join("–"))
                         .trim_start()
                         .to_owned()
                 }
@@ -373,8 +391,8 @@ impl<'a> Reader<'a> {
             if matches!(kind, "distance" | "squared distance") {
                 continue;
             }
-            let (before, name) = (worded(&shown(value)), constraint["name"].as_str());
-            let (text, was) = match name.and_then(&now) {
+            let before = worded(&shown(value));
+            let (text, was) = match constraint.name.and_then(&now) {
                 Some(now) => (worded(&now), Some(before)),
                 None => (before, None),
             };
@@ -387,23 +405,19 @@ impl<'a> Reader<'a> {
                 labels.push(Label { text, was, points });
             }
         }
-        Ok(labels)
+        labels
     }
 
     /// The objects that are drawn: all but rigid bodies, which are bars.
-    fn objects(&self) -> impl Iterator<Item = (&'a str, &'a str, &'a Value)> {
-        let objects = self.result["objects"].as_array().into_iter().flatten();
-        objects.filter_map(|object| {
-            let (name, kind) = (object["name"].as_str()?, object["kind"].as_str()?);
-            (kind != "body").then_some((name, kind, &object["points"]))
-        })
+    fn objects(&self) -> impl Iterator<Item = &Object<'a>> {
+        self.objects.iter().filter(|object| object.kind != "body")
     }
 
     fn shapes(&self) -> Vec<Shape> {
         self.objects()
-            .map(|(name, kind, _)| Shape {
-                name: name.into(),
-                kind: kind.into(),
+            .map(|object| Shape {
+                name: object.name.into(),
+                kind: object.kind.into(),
             })
             .collect()
     }
@@ -420,13 +434,12 @@ impl<'a> Reader<'a> {
     ) -> Vec<Vec<f64>> {
         let point =
             |k: usize| -> Option<[f64; 3]> { points.get(3 * k..3 * k + 3)?.try_into().ok() };
-        let outline = |(name, kind, through): (&str, &str, &Value)| -> Option<Vec<f64>> {
-            let at = &objects[name];
+        let outline = |object: &Object| -> Option<Vec<f64>> {
+            let at = &objects[object.name];
             let place = |key: &str| middles(&at[key], self.dimension);
-            let through = through.as_array()?.iter();
-            let through = through.map(|name| self.number(name).and_then(point));
+            let through = self.numbers(&object.points)?.into_iter().map(point);
             let through = through.collect::<Option<Vec<[f64; 3]>>>()?;
-            Some(match (kind, &through[..]) {
+            Some(match (object.kind, &through[..]) {
                 ("line", _) if !at.is_null() => {
                     outlines::line(points, there(place("point")?), turn(place("direction")?))
                 }

@@ -22,7 +22,7 @@ pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
         bar.target = None;
         bar.label = name.to_owned();
     }
-    page.labels = reader.labels(|driven| (driven == name).then(|| name.to_owned()))?;
+    page.labels = reader.labels(|driven| (driven == name).then(|| name.to_owned()));
     let frames = list(result, "frames")?;
     let mut samples: Vec<Sample> = Vec::with_capacity(frames.len());
     let mut levels = Vec::new();
