@@ -15,6 +15,25 @@ impl Span {
 
     /// Takes vectors that belong together, if each says something new beside those before; otherwise none of them.
     pub fn take(&mut self, vectors: impl IntoIterator<Item = Vec<f64>>) -> bool {
+        self.take_if(NEW, vectors)
+    }
+
+    /// Takes of some vectors, until there are `most`, those that say something new: first, in their order, those of which a tenth is new,
+    /// then those of which a hundredth is, and so on, so that no equation is used that nearly follows from the others where another would do.
+    /// Which of them were taken.
+    pub fn choose(&mut self, vectors: &[Vec<f64>], most: usize) -> Vec<bool> {
+        let mut is_taken = vec![false; vectors.len()];
+        for least in [0.1, 0.01, NEW] {
+            for (vector, is_taken) in vectors.iter().zip(&mut is_taken) {
+                if !*is_taken && self.rank() < most {
+                    *is_taken = self.take_if(least, [vector.clone()]);
+                }
+            }
+        }
+        is_taken
+    }
+
+    fn take_if(&mut self, least: f64, vectors: impl IntoIterator<Item = Vec<f64>>) -> bool {
         let before = self.0.len();
         for mut left in vectors {
             normalise(&mut left);
@@ -27,7 +46,7 @@ impl Span {
                         .for_each(|(a, b)| *a -= along * b);
                 }
             }
-            if normalise(&mut left) < NEW {
+            if normalise(&mut left) < least {
                 self.0.truncate(before);
                 return false;
             }

@@ -108,7 +108,7 @@ impl Tested {
 
 impl Surplus {
     /// Of a problem of more distances than are needed, and nothing else. What is left out is what says nothing new in the sketch beside
-    /// those written before, and after these what says nothing new in a figure whose distances may be any. `None`: there are no more than needed, or
+    /// those [chosen](Span::choose), and after these what says nothing new in a figure whose distances may be any. `None`: there are no more than needed, or
     /// they do not hold the figure, or it has more than [`MOST_POINTS`] points. `tolerance`: within what a distance counts as met,
     /// where that is not half a unit of the last digit it is given with.
     pub fn of(problem: &Problem, tolerance: Option<f64>) -> Option<Self> {
@@ -120,7 +120,6 @@ impl Surplus {
         if !may_be || rigidity(d, n, &edges).rank < needed {
             return None;
         }
-        let mut span = Span::default();
         let places = problem.places();
         let row = |&[a, b]: &[usize; 2]| {
             let mut row = vec![0.0; d * n];
@@ -130,12 +129,8 @@ impl Surplus {
             }
             row
         };
-        let mut is_used = vec![false; edges.len()];
-        let mut count = 0;
-        for (edge, is_used) in edges.iter().zip(&mut is_used) {
-            *is_used = count < needed && span.take([row(edge)]);
-            count += usize::from(*is_used);
-        }
+        let rows: Vec<Vec<f64>> = edges.iter().map(row).collect();
+        let mut is_used = Span::default().choose(&rows, needed);
         for e in 0..edges.len() {
             if is_used.iter().filter(|used| **used).count() == needed {
                 break;

@@ -17,7 +17,8 @@ pub enum OpenError {
     /// The sketch cannot be led to its own dimensions.
     #[error(
         "the sketch does not meet its own dimensions, and could not be led to them: {what}. An edit begins with a \
-         figure that meets its dimensions, at least nearly: take one of the figures that `krawl solve` finds"
+         figure that meets its dimensions, at least nearly: take one of the figures that `krawl solve` finds, or see there \
+         which dimension is out of reach"
     )]
     Correction {
         /// How that ended, in words.
