@@ -105,22 +105,22 @@ pub struct Fold {
 impl Trace {
     /// A run begins: what was seen before is forgotten.
     pub(super) fn begin(&mut self, homotopy: &Homotopy) {
-        *self = Trace {
-            homotopy: Some(homotopy.clone()),
+        *self = Trace::of(homotopy.clone());
+    }
+
+    /// Nothing seen yet.
+    fn of(homotopy: Homotopy) -> Self {
+        Trace {
             unit: homotopy.unit,
             width: homotopy.equations + 1,
+            homotopy: Some(homotopy),
             ..Trace::default()
-        };
+        }
     }
 
     /// The way ahead came to an end: what follows goes the other way from the sketch.
     pub(super) fn turn_back(&mut self) {
-        self.back = Some(Box::new(Trace {
-            homotopy: self.homotopy.clone(),
-            unit: self.unit,
-            width: self.width,
-            ..Trace::default()
-        }));
+        self.back = self.homotopy.clone().map(Trace::of).map(Box::new);
     }
 
     /// The path, followed the other way from the sketch, came back to it: that way is the whole path, and only it
@@ -197,22 +197,11 @@ impl Trace {
                 .extend(std::iter::repeat_n(0.0, auxiliary));
             self.coefficients.push(z[piece.width - 1]);
         }
-        let pieces = piece.pieces.iter();
-        self.pieces.extend(pieces.map(
-            |&Piece {
-                 from,
-                 to,
-                 at,
-                 end,
-                 within,
-             }| Piece {
-                from,
-                to,
-                at: before + at,
-                end: before + end,
-                within,
-            },
-        ));
+        self.pieces.extend(piece.pieces.iter().map(|piece| Piece {
+            at: before + piece.at,
+            end: before + piece.end,
+            ..*piece
+        }));
         self.turns.go_on(rising);
         self.open = None;
     }
@@ -328,12 +317,7 @@ impl Trace {
         {
             return back.box_at(-at);
         }
-        let tube = self.piece(at)?;
-        let Piece { at: start, end, .. } = self.pieces[tube];
-        let part = match end > start {
-            true => ((at - start) / (end - start)).clamp(0.0, 1.0),
-            false => 0.0,
-        };
+        let (tube, part) = self.part_at(at)?;
         Some(self.part(tube, (part, part)).points())
     }
 
@@ -395,20 +379,9 @@ impl Trace {
             let (z, direction) = back.at(-at)?;
             return Some((z, direction.into_iter().map(|x| -x).collect()));
         }
-        let k = self.piece(at)?;
-        let Piece {
-            from,
-            to,
-            at: start,
-            end,
-            ..
-        } = self.pieces[k];
-        let part = if end > start {
-            (at - start) / (end - start)
-        } else {
-            0.0
-        };
-        let s = from + (to - from) * part.clamp(0.0, 1.0);
+        let (k, part) = self.part_at(at)?;
+        let Piece { from, to, .. } = self.pieces[k];
+        let s = from + (to - from) * part;
         let mut direction = self.slope(k, s);
         let size = direction.iter().map(|x| x * x).sum::<f64>().sqrt();
         direction.iter_mut().for_each(|x| *x /= size);
@@ -427,6 +400,17 @@ impl Trace {
     fn piece(&self, at: f64) -> Option<usize> {
         let k = self.pieces.partition_point(|piece| piece.at <= at);
         k.checked_sub(1).or((!self.pieces.is_empty()).then_some(0))
+    }
+
+    /// That number, and which part of the path's way through the tube is behind there (0 to 1).
+    fn part_at(&self, at: f64) -> Option<(usize, f64)> {
+        let tube = self.piece(at)?;
+        let Piece { at: start, end, .. } = self.pieces[tube];
+        let part = match end > start {
+            true => ((at - start) / (end - start)).clamp(0.0, 1.0),
+            false => 0.0,
+        };
+        Some((tube, part))
     }
 
     /// The figure where the path is so long.
