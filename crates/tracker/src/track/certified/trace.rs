@@ -5,6 +5,7 @@ use crate::interval::along::{Along, Quantifiable as _};
 use crate::interval::{Interval, hull, point};
 use crate::places::{Each as _, array};
 use crate::system::{Gauge, Homotopy, Located};
+use crate::track::events::changes;
 use crate::track::full::path_length;
 use crate::track::turns::{Stretch, Turns};
 
@@ -518,7 +519,7 @@ fn all_points<T: Copy>(gauge: &Gauge, free: impl Fn(usize) -> T, zero: T) -> Vec
 }
 
 /// Where t turns on the tube's polynomial, between two parameters.
-fn turning<const N: usize, Y: Frame>(tube: &Tube<N, Y>, (a, b): (f64, f64)) -> Option<f64> {
+fn turning<const N: usize, Y: Frame>(tube: &Tube<N, Y>, between: (f64, f64)) -> Option<f64> {
     const PIECES: usize = 16;
     let t = tube.weights.len() - 2;
     let slope = |s: f64| {
@@ -527,15 +528,5 @@ fn turning<const N: usize, Y: Frame>(tube: &Tube<N, Y>, (a, b): (f64, f64)) -> O
             sum.mul_add(s, k as f64 * tube.local.z[k][t])
         })
     };
-    let place = |k: usize| a + (b - a) * (k as f64 / PIECES as f64);
-    let k = (0..PIECES).find(|&k| (slope(place(k)) > 0.0) != (slope(place(k + 1)) > 0.0))?;
-    let (mut low, mut high) = (place(k), place(k + 1));
-    for _ in 0..60 {
-        let middle = 0.5 * (low + high);
-        match (slope(middle) > 0.0) == (slope(low) > 0.0) {
-            true => low = middle,
-            false => high = middle,
-        }
-    }
-    Some(0.5 * (low + high))
+    changes(between, PIECES, |s| slope(s) > 0.0).next()
 }

@@ -1,6 +1,6 @@
 //! Runs that end at t = 1: from a figure at t = 0, with dt/ds > 0 proved on every tube.
 
-use super::{Test, Tracker};
+use super::{CameTo, Test, Tracker};
 use crate::system::Homotopy;
 use crate::track::arc::{ArcEnd, ArcRun, Figure};
 use crate::track::certified::FollowArcs;
@@ -288,8 +288,10 @@ where
             (Ok(()), None) => {
                 ArcEnd::Stopped(Stop::new(StopKind::Bug, "it ended nowhere: a bug in krawl"))
             }
-            (Err(reason), _) if tracker.is_singular => ArcEnd::Passes(reason),
-            (Err(reason), _) => ArcEnd::Stopped(reason),
+            (Err(halt), _) => match halt.came_to {
+                CameTo::Stuck { is_singular: true } => ArcEnd::Passes(halt.stop),
+                _ => ArcEnd::Stopped(halt.stop),
+            },
         };
         let t = match &end {
             ArcEnd::Reached(_) => (1.0, 1.0),
