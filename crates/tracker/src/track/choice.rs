@@ -3,7 +3,6 @@
 use super::{Control, Mode, Options, Outcome, Space, StartError, Status, Trace, solve};
 use crate::problem::Problem;
 use crate::system::Homotopy;
-use std::sync::atomic::Ordering;
 
 /// Follows the path through the sketch of `problem`, with proof and all else as it comes: the short way
 /// to [`solve_in_best_space`].
@@ -48,7 +47,7 @@ pub fn solve_in_best_space(
     let Status::Stopped(reason) = &outcome.status else {
         return Ok(outcome);
     };
-    if options.mode == Mode::Float || space == Space::Full || is_cancelled(control) {
+    if options.mode == Mode::Float || space == Space::Full || control.is_interrupted() {
         return Ok(outcome);
     }
     let remark = format!("full space: in the reduced space the run stopped, {reason}");
@@ -96,10 +95,4 @@ pub fn trace_path(
     };
     let outcome = solve_in_best_space(problem, &options, &mut control)?;
     Ok((outcome, trace))
-}
-
-fn is_cancelled(control: &Control) -> bool {
-    control
-        .cancel
-        .is_some_and(|flag| flag.load(Ordering::Relaxed))
 }

@@ -1,6 +1,7 @@
 //! Where a path that does not come back to the sketch ends.
 
-use crate::constraint::Tail;
+use super::{Status, Stop};
+use crate::constraint::Role;
 use crate::interval::vector::{cross, length, minus};
 use crate::places::{Each as _, array};
 use crate::problem::{Item, Problem, Shape};
@@ -82,6 +83,10 @@ pub const SMALL: f64 = 1e-3;
 /// Where the Jacobian with the normal has a larger condition, in floats, a run that is stuck is near a place
 /// where it loses rank: where branches meet.
 pub const SINGULAR: f64 = 1e7;
+
+/// What is said of such a place where a path ends.
+pub const DEGENERATE: &str =
+    "the figure becomes degenerate, its constraints dependent on each other";
 
 /// Planes are called parallel, and points on one line, where the sine of the angle is below this.
 const NEARLY: f64 = 1e-2;
@@ -237,9 +242,53 @@ pub fn places(homotopy: &Homotopy, z: &[f64]) -> Vec<[f64; 3]> {
     (0..homotopy.points).map(place).collect()
 }
 
-/// The name of a vector that must not vanish and has nearly done so: all its coordinates are small beside `size`.
-/// `z` are all unknowns.
-pub fn vanishing_vector<'h>(homotopy: &'h Homotopy, z: &[f64], size: f64) -> Option<&'h str> {
+/// What is said of a point that goes away, but for where that is seen.
+pub fn in_words(homotopy: &Homotopy, Away { point, distance }: Away) -> String {
+    let name = homotopy.point_names.get(point).map(String::as_str);
+    format!(
+        "{} is {:.4} away and moves away, ever farther as far as one can see",
+        name.unwrap_or("a point"),
+        distance.0
+    )
+}
+
+/// How a run ended that came to one end of its path, and the other way from the sketch to another, or stopped.
+pub fn both_ways(end: PathEnd, other: Result<PathEnd, Stop>) -> Status {
+    match other {
+        Ok(other) => Status::Open(Box::new([other, end])),
+        Err(stop) => {
+            let words = format!(
+                "one way from the sketch the path has an end ({}); the other way {stop}",
+                end.reason
+            );
+            Status::Stopped(stop.in_words(words))
+        }
+    }
+}
+
+/// The name of what must not vanish and has nearly done so: of an auxiliary unknown that must be positive and is small
+/// beside what it was in the sketch, or of a vector that is small beside `size`. `z` and `sketch` are all unknowns.
+pub fn vanishing<'h>(
+    homotopy: &'h Homotopy,
+    z: &[f64],
+    sketch: &[f64],
+    size: f64,
+) -> Option<&'h str> {
+    let first = homotopy.gauge.place.len();
+    let (tail, values) = (&homotopy.tail, z[first..].iter().zip(&sketch[first..]));
+    let mut small = tail
+        .unknowns
+        .iter()
+        .zip(values)
+        .filter(|(unknown, (now, before))| {
+            unknown.role == Role::Positive && **now < SMALL * **before
+        });
+    let unknown = small.next().map(|(unknown, _)| unknown.name.as_str());
+    unknown.or_else(|| vanishing_vector(homotopy, z, size))
+}
+
+/// The name of a vector all of whose coordinates are small beside `size`.
+fn vanishing_vector<'h>(homotopy: &'h Homotopy, z: &[f64], size: f64) -> Option<&'h str> {
     let at = |i: usize| if i < homotopy.equations { z[i] } else { 0.0 };
     let vectors = homotopy.nonzero_vectors().into_iter();
     let mut small = vectors.zip(&homotopy.tail.nonzero).filter(|(vector, _)| {
@@ -248,15 +297,4 @@ pub fn vanishing_vector<'h>(homotopy: &'h Homotopy, z: &[f64], size: f64) -> Opt
             .all(|&[i, j]| (at(i) - at(j)).abs() < SMALL * size)
     });
     small.next().map(|(_, vector)| vector.name.as_str())
-}
-
-/// The name of an auxiliary unknown that must be positive and has become small beside what it was in the
-/// sketch. `values` are those of the auxiliary unknowns, `sketch` what they were.
-pub fn vanishing<'t>(tail: &'t Tail, values: &[f64], sketch: &[f64]) -> Option<&'t str> {
-    use crate::constraint::Role;
-    let unknowns = tail.unknowns.iter().zip(values).zip(sketch);
-    let mut small = unknowns.filter(|((unknown, now), before)| {
-        unknown.role == Role::Positive && **now < SMALL * **before
-    });
-    small.next().map(|((unknown, _), _)| unknown.name.as_str())
 }

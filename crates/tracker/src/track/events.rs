@@ -57,6 +57,41 @@ enum Piece {
     Falling,
 }
 
+/// The part of a range in which a condition ceases to hold that holds at its start, after so many halvings. In floats.
+pub fn halved(
+    (mut a, mut b): (f64, f64),
+    halvings: usize,
+    mut holds: impl FnMut(f64) -> bool,
+) -> (f64, f64) {
+    for _ in 0..halvings {
+        let middle = middle_of((a, b));
+        match holds(middle) {
+            true => a = middle,
+            false => b = middle,
+        }
+    }
+    (a, b)
+}
+
+/// The middle of a range.
+pub fn middle_of((a, b): (f64, f64)) -> f64 {
+    0.5 * (a + b)
+}
+
+/// Where a condition changes in a range, looked at in so many pieces: in each in which its ends differ, from the first on.
+pub fn changes(
+    (from, to): (f64, f64),
+    pieces: usize,
+    mut holds: impl FnMut(f64) -> bool,
+) -> impl Iterator<Item = f64> {
+    let place = move |k: usize| from + (to - from) * (k as f64 / pieces as f64);
+    let pieces = (0..pieces).map(move |k| (place(k), place(k + 1)));
+    pieces.filter_map(move |(a, b)| {
+        let at_a = holds(a);
+        (holds(b) != at_a).then(|| middle_of(halved((a, b), 60, |s| holds(s) == at_a)))
+    })
+}
+
 /// A piece is not split more often than this: the last are 2⁻⁴⁰ of the tube.
 const MAX_DEPTH: usize = 40;
 /// There are never more pieces than this: a polynomial with huge coefficients, which no path has, would be cut
@@ -122,21 +157,13 @@ impl<const N: usize> TimeAlong<N> {
     }
 
     /// A parameter from `a` to `b`, at which t − 1 has different signs, where it is about zero.
-    pub fn zero_between(&self, (mut a, mut b): (f64, f64)) -> f64 {
+    pub fn zero_between(&self, between: (f64, f64)) -> f64 {
         let value = |s: f64| {
             let terms = self.coefficients.iter().rev();
             terms.fold(0.0, |sum: f64, c| sum.mul_add(s, *c))
         };
-        let above = value(a) > 0.0;
-        for _ in 0..100 {
-            let middle = 0.5 * (a + b);
-            if (value(middle) > 0.0) == above {
-                a = middle;
-            } else {
-                b = middle;
-            }
-        }
-        0.5 * (a + b)
+        let above = value(between.0) > 0.0;
+        middle_of(halved(between, 100, |s| (value(s) > 0.0) == above))
     }
 
     /// All crossings of t = 1 with parameters from `from` to `to`, and perhaps some a little
@@ -195,16 +222,8 @@ impl<const N: usize> TimeAlong<N> {
         const PIECES: usize = 32;
         let at = |k: usize| from + (self.h - from) * (k as f64 / PIECES as f64);
         let k = (1..=PIECES).find(|&k| slope(at(k)) <= 0.0)?;
-        let (mut a, mut b) = (at(k - 1), at(k));
-        for _ in 0..60 {
-            let middle = 0.5 * (a + b);
-            if slope(middle) > 0.0 {
-                a = middle;
-            } else {
-                b = middle;
-            }
-        }
-        Some(0.5 * (a + b))
+        let turn = halved((at(k - 1), at(k)), 60, |s| slope(s) > 0.0);
+        Some(middle_of(turn))
     }
 
     /// Bounds of t over the parameters from `a` to `b`.

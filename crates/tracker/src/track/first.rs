@@ -9,7 +9,6 @@ use super::{
 use crate::interval::point;
 use crate::problem::Problem;
 use crate::system::Homotopy;
-use std::sync::atomic::Ordering;
 use std::time::Instant;
 
 /// What comes of a run that ends at the first solution.
@@ -68,12 +67,9 @@ pub fn first(
     };
     let mut run = run_in(best, control);
     let mut used = best;
-    let is_cancelled = control
-        .cancel
-        .is_some_and(|flag| flag.load(Ordering::Relaxed));
     if let (ArcEnd::Passes(reason) | ArcEnd::Stopped(reason), Space::Reduced, None) =
         (&run.end, best, space)
-        && !is_cancelled
+        && !control.is_interrupted()
     {
         let remark = format!("full space: in the reduced space the run stopped, {reason}");
         run = run_in(Space::Full, control);

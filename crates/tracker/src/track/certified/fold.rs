@@ -24,11 +24,10 @@ use super::proof::zero_near;
 use crate::interval::rounding::{gamma, greatest, in_range, largest, round_up};
 use crate::interval::{around, hull, point};
 use crate::linalg::{Inverter, Matrix, Sparse, Vector};
-use crate::places::Each as _;
 use crate::system::Homotopy;
 use crate::track::arc::{Figure, Fold};
 use crate::track::full::newton::{End, UNTIL, Until};
-use crate::track::full::{Differences, Equations, Lengths, Tail};
+use crate::track::full::{Differences, Equations, Lengths};
 
 /// Newton's method is done where corrections are below this, or do not shrink any more.
 const ACCURACY: f64 = 1e-15;
@@ -282,29 +281,7 @@ impl FoldProver {
         let m = equations.m;
         let t = point(self.x[m]);
         for e in 0..m {
-            let (mut squared, mut moved) = (point(0.0), point(0.0));
-            for axis in 0..equations.dimension() {
-                let [i, j] = equations.ends[axis][e].each(|end| end as usize);
-                let d = point(self.x[i]) - point(self.x[j]);
-                squared += d.sqr();
-                moved += d * (point(self.v[i]) - point(self.v[j]));
-            }
-            let tail = &equations.tail;
-            let between = |z: &Vector, form: usize, one: f64| match form {
-                Tail::ONE => point(one),
-                _ => {
-                    let [i, j] = tail.ends(form).each(|end| point(z[end]));
-                    i - j
-                }
-            };
-            let mut value = squared * point(0.5);
-            for (half, forms) in tail.products(e) {
-                // The number 1 does not move.
-                let [l, r] = forms.each(|form| between(&self.x, form, 1.0));
-                let [dl, dr] = forms.each(|form| between(&self.v, form, 0.0));
-                value += point(half) * l * r;
-                moved += point(half) * (l * dr + dl * r);
-            }
+            let (value, moved) = equations.enclose_left(e, &self.x, &self.v);
             self.f[e] = (value - homotopy.rights[e].enclose(t)).mag();
             self.f[m + e] = moved.mag();
         }

@@ -57,31 +57,6 @@ pub trait FollowArcs: std::fmt::Debug + Send {
     fn prove_at_end(&mut self, near: &[f64]) -> Result<(Figure, f64), String>;
 }
 
-impl<const N: usize, T: tracker::Test<N>> FollowArcs for tracker::Arcs<N, T>
-where
-    Self: Send,
-{
-    fn homotopy(&self) -> &Homotopy {
-        self.homotopy()
-    }
-
-    fn homotopy_mut(&mut self) -> &mut Homotopy {
-        self.homotopy_mut()
-    }
-
-    fn follow(&mut self, start: &Figure, control: &mut Control) -> ArcRun {
-        self.follow(start, control)
-    }
-
-    fn set_complex(&mut self) {
-        self.set_complex();
-    }
-
-    fn prove_at_end(&mut self, near: &[f64]) -> Result<(Figure, f64), String> {
-        self.prove_at_end(near)
-    }
-}
-
 /// What follows arcs of a homotopy's equations in the space that `options` say.
 pub fn arcs(homotopy: Homotopy, options: &Options) -> Box<dyn FollowArcs> {
     match options.space {

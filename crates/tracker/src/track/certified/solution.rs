@@ -6,9 +6,8 @@ use super::reasons::Doubt;
 use crate::interval::rounding::{gamma, greatest, round_up};
 use crate::interval::{Interval, ZERO, hull, point};
 use crate::linalg::Vector;
-use crate::places::Each as _;
 use crate::system::{Homotopy, Located};
-use crate::track::full::{Equations, InverseMaker, Local, Tail};
+use crate::track::full::{Equations, InverseMaker, Local};
 
 /// Whether two boxes hold the same solution.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -188,24 +187,8 @@ impl SolutionProver {
             }
         } else {
             for e in 0..m {
-                let ends = equations.ends.iter();
-                let squared = ends.fold(point(0.0), |sum, ends| {
-                    let [i, j] = ends[e].each(|end| point(local.z[0][end as usize]));
-                    sum + (i - j).sqr()
-                });
-                let form = |form: usize| match form {
-                    Tail::ONE => point(1.0),
-                    _ => {
-                        let ends = equations.tail.ends(form);
-                        let [i, j] = ends.each(|end| point(local.z[0][end]));
-                        i - j
-                    }
-                };
-                let products = equations.tail.products(e);
-                let sum = products.fold(squared * point(0.5), |sum, (half, [left, right])| {
-                    sum + point(half) * form(left) * form(right)
-                });
-                self.f[e] = (sum - self.targets[e]).mag();
+                let (left, _) = equations.enclose_left(e, &local.z[0], &local.z[0]);
+                self.f[e] = (left - self.targets[e]).mag();
             }
         }
     }

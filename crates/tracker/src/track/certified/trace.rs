@@ -5,6 +5,7 @@ use crate::interval::along::{Along, Quantifiable as _};
 use crate::interval::{Interval, hull, point};
 use crate::places::{Each as _, array};
 use crate::system::{Gauge, Homotopy, Located};
+use crate::track::events::changes;
 use crate::track::full::path_length;
 use crate::track::turns::{Stretch, Turns};
 
@@ -105,22 +106,22 @@ pub struct Fold {
 impl Trace {
     /// A run begins: what was seen before is forgotten.
     pub(super) fn begin(&mut self, homotopy: &Homotopy) {
-        *self = Trace {
-            homotopy: Some(homotopy.clone()),
+        *self = Trace::of(homotopy.clone());
+    }
+
+    /// Nothing seen yet.
+    fn of(homotopy: Homotopy) -> Self {
+        Trace {
             unit: homotopy.unit,
             width: homotopy.equations + 1,
+            homotopy: Some(homotopy),
             ..Trace::default()
-        };
+        }
     }
 
     /// The way ahead came to an end: what follows goes the other way from the sketch.
     pub(super) fn turn_back(&mut self) {
-        self.back = Some(Box::new(Trace {
-            homotopy: self.homotopy.clone(),
-            unit: self.unit,
-            width: self.width,
-            ..Trace::default()
-        }));
+        self.back = self.homotopy.clone().map(Trace::of).map(Box::new);
     }
 
     /// The path, followed the other way from the sketch, came back to it: that way is the whole path, and only it
@@ -197,22 +198,11 @@ impl Trace {
                 .extend(std::iter::repeat_n(0.0, auxiliary));
             self.coefficients.push(z[piece.width - 1]);
         }
-        let pieces = piece.pieces.iter();
-        self.pieces.extend(pieces.map(
-            |&Piece {
-                 from,
-                 to,
-                 at,
-                 end,
-                 within,
-             }| Piece {
-                from,
-                to,
-                at: before + at,
-                end: before + end,
-                within,
-            },
-        ));
+        self.pieces.extend(piece.pieces.iter().map(|piece| Piece {
+            at: before + piece.at,
+            end: before + piece.end,
+            ..*piece
+        }));
         self.turns.go_on(rising);
         self.open = None;
     }
@@ -328,12 +318,7 @@ impl Trace {
         {
             return back.box_at(-at);
         }
-        let tube = self.piece(at)?;
-        let Piece { at: start, end, .. } = self.pieces[tube];
-        let part = match end > start {
-            true => ((at - start) / (end - start)).clamp(0.0, 1.0),
-            false => 0.0,
-        };
+        let (tube, part) = self.part_at(at)?;
         Some(self.part(tube, (part, part)).points())
     }
 
@@ -395,20 +380,9 @@ impl Trace {
             let (z, direction) = back.at(-at)?;
             return Some((z, direction.into_iter().map(|x| -x).collect()));
         }
-        let k = self.piece(at)?;
-        let Piece {
-            from,
-            to,
-            at: start,
-            end,
-            ..
-        } = self.pieces[k];
-        let part = if end > start {
-            (at - start) / (end - start)
-        } else {
-            0.0
-        };
-        let s = from + (to - from) * part.clamp(0.0, 1.0);
+        let (k, part) = self.part_at(at)?;
+        let Piece { from, to, .. } = self.pieces[k];
+        let s = from + (to - from) * part;
         let mut direction = self.slope(k, s);
         let size = direction.iter().map(|x| x * x).sum::<f64>().sqrt();
         direction.iter_mut().for_each(|x| *x /= size);
@@ -427,6 +401,17 @@ impl Trace {
     fn piece(&self, at: f64) -> Option<usize> {
         let k = self.pieces.partition_point(|piece| piece.at <= at);
         k.checked_sub(1).or((!self.pieces.is_empty()).then_some(0))
+    }
+
+    /// That number, and which part of the path's way through the tube is behind there (0 to 1).
+    fn part_at(&self, at: f64) -> Option<(usize, f64)> {
+        let tube = self.piece(at)?;
+        let Piece { at: start, end, .. } = self.pieces[tube];
+        let part = match end > start {
+            true => ((at - start) / (end - start)).clamp(0.0, 1.0),
+            false => 0.0,
+        };
+        Some((tube, part))
     }
 
     /// The figure where the path is so long.
@@ -534,7 +519,7 @@ fn all_points<T: Copy>(gauge: &Gauge, free: impl Fn(usize) -> T, zero: T) -> Vec
 }
 
 /// Where t turns on the tube's polynomial, between two parameters.
-fn turning<const N: usize, Y: Frame>(tube: &Tube<N, Y>, (a, b): (f64, f64)) -> Option<f64> {
+fn turning<const N: usize, Y: Frame>(tube: &Tube<N, Y>, between: (f64, f64)) -> Option<f64> {
     const PIECES: usize = 16;
     let t = tube.weights.len() - 2;
     let slope = |s: f64| {
@@ -543,15 +528,5 @@ fn turning<const N: usize, Y: Frame>(tube: &Tube<N, Y>, (a, b): (f64, f64)) -> O
             sum.mul_add(s, k as f64 * tube.local.z[k][t])
         })
     };
-    let place = |k: usize| a + (b - a) * (k as f64 / PIECES as f64);
-    let k = (0..PIECES).find(|&k| (slope(place(k)) > 0.0) != (slope(place(k + 1)) > 0.0))?;
-    let (mut low, mut high) = (place(k), place(k + 1));
-    for _ in 0..60 {
-        let middle = 0.5 * (low + high);
-        match (slope(middle) > 0.0) == (slope(low) > 0.0) {
-            true => low = middle,
-            false => high = middle,
-        }
-    }
-    Some(0.5 * (low + high))
+    changes(between, PIECES, |s| slope(s) > 0.0).next()
 }

@@ -24,7 +24,7 @@ use crate::interval::rounding::round_up;
 use crate::linalg::Vector;
 use crate::system::Homotopy;
 use crate::track::arc::Figure;
-use crate::track::ends::{Away, EndKind, PathEnd, size_of};
+use crate::track::ends::size_of;
 use crate::track::full::{Equations, InverseMaker};
 use crate::track::{
     Control, Mode, Options, Outcome, Progress, Space, Status, Stop, StopKind, TubeSeen,
@@ -33,6 +33,7 @@ use arc::Arc;
 use creep::Creep;
 use crossing::{Beyond, Crossing};
 use extension::Extension;
+use open::{CameTo, Halt};
 use pace::Pace;
 use parts::{LEAST_WEIGHT, LEFT_OUT, Parts};
 use std::borrow::Cow;
@@ -75,9 +76,9 @@ pub fn track<const N: usize, T: Test<N>>(
     };
     let mut status = match result {
         Ok(()) => Status::Closed,
-        Err(reason) => match tracker.path_end(reason) {
+        Err(halt) => match tracker.path_end(halt) {
             Ok(end) => tracker.other_way(end, options, control),
-            Err(stop) => Status::Stopped(tracker.with_flexibility(stop)),
+            Err(halt) => Status::Stopped(tracker.with_flexibility(halt)),
         },
     };
     let checked = match status {
@@ -166,16 +167,6 @@ struct Tracker<'a, const N: usize, T: Test<N>> {
     beyond: Option<Beyond>,
     /// Whether the tube around the sketch was proved.
     has_set_out: bool,
-    /// Whether the run is stuck near a place where the Jacobian loses rank.
-    is_singular: bool,
-    /// The point that goes to infinity, if the run ended because of one.
-    away: Option<Away>,
-    /// Whether it ended because t or another unknown goes on without end.
-    endless: bool,
-    /// Whether it ended because a length goes to zero.
-    loses: bool,
-    /// Whether it ended because no step could be proved, however short, or steps led nowhere.
-    is_stuck: bool,
     /// How far the last tubes lead.
     creep: Creep,
     /// How many tubes it takes to get twice as far.
@@ -221,11 +212,6 @@ impl<'a, const N: usize, T: Test<N>> Tracker<'a, N, T> {
             crossing: None,
             beyond: None,
             has_set_out: false,
-            is_singular: false,
-            away: None,
-            endless: false,
-            loses: false,
-            is_stuck: false,
             creep: Creep::default(),
             pace: Pace::default(),
             at_start: None,
@@ -238,13 +224,11 @@ impl<'a, const N: usize, T: Test<N>> Tracker<'a, N, T> {
         }
     }
 
-    fn run(&mut self, options: &Options, control: &mut Control) -> Result<(), Stop> {
+    fn run(&mut self, options: &Options, control: &mut Control) -> Result<(), Halt> {
         // Many short runs one after the other, as those of a sweep, end here.
         if control.is_interrupted() {
-            return Err(Stop::new(
-                StopKind::Interrupted,
-                "interrupted before the first tube",
-            ));
+            let words = "interrupted before the first tube";
+            return Err(Stop::new(StopKind::Interrupted, words).into());
         }
         let max_h = self.longest(options);
         let is_done = self.start(options, max_h)?;
@@ -268,7 +252,7 @@ impl<'a, const N: usize, T: Test<N>> Tracker<'a, N, T> {
     }
 
     /// Adds tubes to the last one until the path ends.
-    fn go_on(&mut self, options: &Options, max_h: f64, control: &mut Control) -> Result<(), Stop> {
+    fn go_on(&mut self, options: &Options, max_h: f64, control: &mut Control) -> Result<(), Halt> {
         let mut steps_ahead = StepControl::new(&self.equations);
         // What could not be told of this tube when it was longer.
         let mut doubt = None;
@@ -297,9 +281,7 @@ impl<'a, const N: usize, T: Test<N>> Tracker<'a, N, T> {
                         return Err(self.creeps(tubes));
                     }
                     if let Some(what) = self.gets_nowhere() {
-                        self.endless = true;
-                        let words = format!("{what}, {}", self.place());
-                        return Err(Stop::new(StopKind::Infinite, words));
+                        return Err(self.halt(StopKind::Infinite, what, CameTo::Endless));
                     }
                     doubt = None;
                     steps_ahead.accept(h);
@@ -333,45 +315,19 @@ impl<'a, const N: usize, T: Test<N>> Tracker<'a, N, T> {
                     }
                 }
             }
-            self.away = self.goes_away();
-            if let Some(Away { point, distance }) = self.away {
-                let name = self.homotopy.point_names.get(point);
-                let what = match self.arc {
-                    Some(_) => "the figure seems to grow without end: ",
-                    None => "",
-                };
-                let words = format!(
-                    "{what}{} is {:.4} away and moves away, ever farther as far as one can see, {}",
-                    name.map_or("a point", String::as_str),
-                    distance.0,
-                    self.place()
-                );
-                return Err(Stop::new(StopKind::Infinite, words));
-            }
-            if let Some(what) = self.runs_on() {
-                self.endless = true;
-                let words = format!(
-                    "{what} and moves away from 0; the path is not followed farther, {}",
-                    self.place()
-                );
-                return Err(Stop::new(StopKind::Infinite, words));
-            }
-            if let Some(what) = self.loses_leg() {
-                self.loses = true;
-                let words = format!("{what}, {}", self.place());
-                return Err(Stop::new(StopKind::Undefined, words));
+            if let Some(halt) = self.sees_end() {
+                return Err(halt);
             }
             if self.way.as_ref().is_some_and(Way::is_over) {
-                return Err(Stop::new(StopKind::Interrupted, two_ways::OVER));
+                return Err(Stop::new(StopKind::Interrupted, two_ways::OVER).into());
             }
             if self.steps >= options.max_steps {
                 let words = format!(
-                    "the limit of {} tubes was reached, the last of which is {:.1e} long, {}",
+                    "the limit of {} tubes was reached, the last of which is {:.1e} long",
                     options.max_steps,
-                    2.0 * self.now.proof.h * self.homotopy.unit,
-                    self.place()
+                    2.0 * self.now.proof.h * self.homotopy.unit
                 );
-                return Err(Stop::new(StopKind::Limit, words));
+                return Err(self.halt(StopKind::Limit, words, CameTo::Nothing));
             }
             let progress = Progress {
                 t: self.now.local.z[0][self.equations.m],
@@ -381,7 +337,7 @@ impl<'a, const N: usize, T: Test<N>> Tracker<'a, N, T> {
             };
             if control.is_cancelled(progress) {
                 let words = format!("interrupted {}", self.place());
-                return Err(Stop::new(StopKind::Interrupted, words));
+                return Err(Stop::new(StopKind::Interrupted, words).into());
             }
         }
     }
@@ -463,8 +419,6 @@ impl<'a, const N: usize, T: Test<N>> Tracker<'a, N, T> {
         }
         (self.steps, self.rejected, self.shortened) = (0, 0, 0);
         (self.has_previous, self.has_set_out) = (false, false);
-        (self.is_singular, self.is_stuck) = (false, false);
-        (self.away, self.endless, self.loses) = (None, false, false);
         self.typical = f64::NAN;
     }
 

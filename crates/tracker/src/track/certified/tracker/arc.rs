@@ -1,8 +1,9 @@
 //! Runs that end at t = 1: from a figure at t = 0, with dt/ds > 0 proved on every tube.
 
-use super::{Test, Tracker};
+use super::{CameTo, Test, Tracker};
 use crate::system::Homotopy;
 use crate::track::arc::{ArcEnd, ArcRun, Figure};
+use crate::track::certified::FollowArcs;
 use crate::track::certified::beside::Besides;
 use crate::track::certified::fold::{self, FoldProver};
 use crate::track::certified::ledger::Ledger;
@@ -229,29 +230,26 @@ impl<const N: usize, T: Test<N>> Arcs<N, T> {
             options: options.clone(),
         }
     }
+}
 
-    /// The homotopy.
-    pub fn homotopy(&self) -> &Homotopy {
+impl<const N: usize, T: Test<N>> FollowArcs for Arcs<N, T>
+where
+    Self: Send,
+{
+    fn homotopy(&self) -> &Homotopy {
         &self.tracker.homotopy
     }
 
-    /// The homotopy, whose lengths may be changed between two arcs.
-    pub fn homotopy_mut(&mut self) -> &mut Homotopy {
+    fn homotopy_mut(&mut self) -> &mut Homotopy {
         self.tracker.homotopy.to_mut()
     }
 
-    /// Says that the equations are those of the real and imaginary parts of complex ones.
-    pub fn set_complex(&mut self) {
-        self.tracker
-            .arc
-            .as_mut()
-            .expect("a run to t = 1")
-            .is_complex = true;
+    fn set_complex(&mut self) {
+        let arc = self.tracker.arc.as_mut();
+        arc.expect("a run to t = 1").is_complex = true;
     }
 
-    /// Proves a box around the zero of F(X, a(1)) near a point: there is exactly one zero in it, and no other
-    /// within a distance that comes with it.
-    pub fn prove_at_end(&mut self, near: &[f64]) -> Result<(Figure, f64), String> {
+    fn prove_at_end(&mut self, near: &[f64]) -> Result<(Figure, f64), String> {
         let tracker = &mut self.tracker;
         let m = tracker.equations.m;
         tracker.equations.set_rights(&tracker.homotopy);
@@ -277,9 +275,7 @@ impl<const N: usize, T: Test<N>> Arcs<N, T> {
         unreachable!("the second round returns")
     }
 
-    /// Follows the arc from the figure that the box `start` holds, the only one in it that meets the
-    /// lengths at t = 0.
-    pub fn follow(&mut self, start: &Figure, control: &mut Control) -> ArcRun {
+    fn follow(&mut self, start: &Figure, control: &mut Control) -> ArcRun {
         let tracker = &mut self.tracker;
         tracker.begin(start);
         let result = tracker.run(&self.options, control);
@@ -292,8 +288,10 @@ impl<const N: usize, T: Test<N>> Arcs<N, T> {
             (Ok(()), None) => {
                 ArcEnd::Stopped(Stop::new(StopKind::Bug, "it ended nowhere: a bug in krawl"))
             }
-            (Err(reason), _) if tracker.is_singular => ArcEnd::Passes(reason),
-            (Err(reason), _) => ArcEnd::Stopped(reason),
+            (Err(halt), _) => match halt.came_to {
+                CameTo::Stuck { is_singular: true } => ArcEnd::Passes(halt.stop),
+                _ => ArcEnd::Stopped(halt.stop),
+            },
         };
         let t = match &end {
             ArcEnd::Reached(_) => (1.0, 1.0),

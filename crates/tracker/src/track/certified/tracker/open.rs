@@ -2,14 +2,46 @@
 
 use super::crossing::Crossing;
 use super::pace::MOST;
-use super::{EndKind, PathEnd, Test, Tracker};
+use super::{Test, Tracker};
 use crate::constraint::Role;
 use crate::interval::rounding::round_up;
 use crate::interval::{hull, point};
 use crate::track::ends::{
-    Away, ENDLESS, FAR, OUTSIDE, SETTLED, SMALL, farthest, places, vanishing, vanishing_vector,
+    Away, DEGENERATE, ENDLESS, EndKind, FAR, OUTSIDE, PathEnd, SETTLED, SMALL, both_ways, farthest,
+    in_words, places, vanishing,
 };
 use crate::track::{Control, Options, Status, Stop, StopKind};
+
+/// Why a run ended before its path was closed, or before t was 1.
+#[derive(Debug)]
+pub(super) struct Halt {
+    pub stop: Stop,
+    pub came_to: CameTo,
+}
+
+/// What a run had come to when it ended, as far as one can see.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum CameTo {
+    /// Nothing at which a path ends.
+    Nothing,
+    /// A point goes away.
+    Away(Away),
+    /// t or another unknown goes on without end.
+    Endless,
+    /// A length goes to zero.
+    Vanishing,
+    /// No step could be proved, however short, or steps led nowhere: perhaps near a place where the Jacobian loses rank.
+    Stuck { is_singular: bool },
+}
+
+impl From<Stop> for Halt {
+    fn from(stop: Stop) -> Self {
+        Halt {
+            stop,
+            came_to: CameTo::Nothing,
+        }
+    }
+}
 
 impl<const N: usize, T: Test<N>> Tracker<'_, N, T> {
     /// The point that goes away, if one is far from the others, moves away at the last point that is proved, and t
@@ -17,7 +49,7 @@ impl<const N: usize, T: Test<N>> Tracker<'_, N, T> {
     ///
     /// With X(s) the point along the tube, R² = |X|² is enclosed in the exit's box, and X·X' > 0 there by bounds of
     /// X' over the parameters between which the exit is: so dR/ds > 0.
-    pub(super) fn goes_away(&self) -> Option<Away> {
+    fn goes_away(&self) -> Option<Away> {
         if self.homotopy.tail.is_empty() {
             return None;
         }
@@ -56,7 +88,7 @@ impl<const N: usize, T: Test<N>> Tracker<'_, N, T> {
     /// What has gone too far to be followed, in words, if t or another unknown is far from 0 and moves away at the last point that is
     /// proved. So t goes on where nothing depends on it, as from a sketch that meets all constraints, or all that does is in
     /// proportion to it; it may also come back from there.
-    pub(super) fn runs_on(&self) -> Option<String> {
+    fn runs_on(&self) -> Option<String> {
         match self.arc {
             Some(_) => None,
             None => self.has_passed(ENDLESS),
@@ -111,7 +143,7 @@ impl<const N: usize, T: Test<N>> Tracker<'_, N, T> {
     /// A length or radius that goes to zero, in words, if one is small beside what it was in the sketch, proved to shrink
     /// at the last point, and if tubes have become so short that it would take a hundred to get to zero: near there the
     /// Jacobian loses rank, and tubes shrink like the square of the length.
-    pub(super) fn loses_leg(&self) -> Option<String> {
+    fn loses_leg(&self) -> Option<String> {
         if self.homotopy.tail.is_empty() || self.arc.is_some() {
             return None;
         }
@@ -160,48 +192,79 @@ impl<const N: usize, T: Test<N>> Tracker<'_, N, T> {
         })
     }
 
-    /// The end of the path, if that is where the run ended; otherwise the reason again.
-    pub(super) fn path_end(&self, reason: Stop) -> Result<PathEnd, Stop> {
-        if self.homotopy.tail.is_empty() || !self.has_set_out {
-            return Err(reason);
+    /// The end of the path that the last tube comes to, as far as one can see.
+    pub(super) fn sees_end(&self) -> Option<Halt> {
+        if let Some(away) = self.goes_away() {
+            let what = match self.arc {
+                Some(_) => "the figure seems to grow without end: ",
+                None => "",
+            };
+            let words = format!("{what}{}", in_words(&self.homotopy, away));
+            return Some(self.halt(StopKind::Infinite, words, CameTo::Away(away)));
         }
-        let (t, z) = (self.reached(), &self.now.local.z[0]);
-        let first = self.homotopy.gauge.place.len();
-        let (values, before) = (&z[first..], &self.sketch.centre[first..]);
-        let leg = self.homotopy.remark_on_lengths(t.0);
-        let (kind, reason) = if self.away.is_some() || self.endless {
-            (EndKind::Infinite, reason.text)
-        } else if self.loses {
-            (EndKind::Undefined, reason.text)
-        } else if !self.is_stuck {
-            // Interrupted, or at the limit of steps.
-            return Err(reason);
-        } else if let Some(name) = vanishing(&self.homotopy.tail, values, before) {
-            (EndKind::Undefined, format!("{name} goes to zero: {reason}"))
-        } else if let Some(name) = vanishing_vector(&self.homotopy, z, self.size_of_sketch) {
-            (EndKind::Undefined, format!("{name} goes to zero: {reason}"))
-        } else if !leg.is_empty() {
-            let what = leg.trim_start_matches("; ");
-            (EndKind::Undefined, format!("{what}: {reason}"))
-        } else if let Some(why) = self.crossing.as_ref().and_then(Crossing::failure) {
-            let what =
-                "a degenerate (flat) figure at t = 1, beyond which the path could not be followed";
-            (EndKind::Degenerate, format!("{what}: {why}; {reason}"))
-        } else if self.is_singular {
-            let what = "the figure becomes degenerate, its constraints dependent on each other";
-            let words = format!("{what}: {reason}");
-            let reason = self.with_flexibility(reason.in_words(words));
-            (EndKind::Degenerate, reason.text)
-        } else {
-            return Err(reason);
+        if let Some(what) = self.runs_on() {
+            let words = format!("{what} and moves away from 0; the path is not followed farther");
+            return Some(self.halt(StopKind::Infinite, words, CameTo::Endless));
+        }
+        let what = self.loses_leg()?;
+        Some(self.halt(StopKind::Undefined, what, CameTo::Vanishing))
+    }
+
+    /// A run that ends at the last tube.
+    pub(super) fn halt(&self, kind: StopKind, what: String, came_to: CameTo) -> Halt {
+        let stop = Stop::new(kind, format!("{what}, {}", self.place()));
+        Halt { stop, came_to }
+    }
+
+    /// The end of the path, if that is where the run ended; otherwise why it ended again.
+    pub(super) fn path_end(&self, halt: Halt) -> Result<PathEnd, Halt> {
+        if self.homotopy.tail.is_empty() || !self.has_set_out {
+            return Err(halt);
+        }
+        let end = match halt.came_to {
+            CameTo::Nothing => None,
+            CameTo::Away(_) | CameTo::Endless => Some((EndKind::Infinite, String::new())),
+            CameTo::Vanishing => Some((EndKind::Undefined, String::new())),
+            CameTo::Stuck { is_singular } => self.stuck_at(is_singular),
+        };
+        let Some((kind, what)) = end else {
+            return Err(halt);
+        };
+        let away = match halt.came_to {
+            CameTo::Away(away) => Some(away),
+            _ => None,
         };
         Ok(PathEnd {
-            t,
+            t: self.reached(),
             kind,
-            reason,
-            away: self.away,
-            points: places(&self.homotopy, z),
+            reason: format!("{what}{}", halt.stop),
+            away,
+            points: places(&self.homotopy, &self.now.local.z[0]),
         })
+    }
+
+    /// The end of the path near which no step can be proved, if there is one, and what is said of it before the reason.
+    fn stuck_at(&self, is_singular: bool) -> Option<(EndKind, String)> {
+        let (homotopy, z) = (&self.homotopy, &self.now.local.z[0]);
+        let leg = homotopy.remark_on_lengths(self.reached().0);
+        let flat = self.crossing.as_ref().and_then(Crossing::failure);
+        let small = vanishing(homotopy, z, &self.sketch.centre, self.size_of_sketch);
+        if let Some(name) = small {
+            Some((EndKind::Undefined, format!("{name} goes to zero: ")))
+        } else if !leg.is_empty() {
+            let what = leg.trim_start_matches("; ");
+            Some((EndKind::Undefined, format!("{what}: ")))
+        } else if let Some(why) = flat {
+            let what =
+                "a degenerate (flat) figure at t = 1, beyond which the path could not be followed";
+            Some((EndKind::Degenerate, format!("{what}: {why}; ")))
+        } else if is_singular {
+            let flexible = self.flexibility().map(|words| format!("{words}; "));
+            let flexible = flexible.unwrap_or_default();
+            Some((EndKind::Degenerate, format!("{flexible}{DEGENERATE}: ")))
+        } else {
+            None
+        }
     }
 
     /// Goes the other way from the sketch, this run having come to an end of the path. Afterwards the account
@@ -246,7 +309,7 @@ impl<const N: usize, T: Test<N>> Tracker<'_, N, T> {
                 std::mem::swap(&mut self.crossing, &mut back.crossing);
                 return Status::Closed;
             }
-            Err(reason) => back.path_end(reason),
+            Err(halt) => back.path_end(halt).map_err(|halt| halt.stop),
         };
         self.steps += back.steps;
         self.rejected += back.rejected;
@@ -258,15 +321,6 @@ impl<const N: usize, T: Test<N>> Tracker<'_, N, T> {
         if let Err(reason) = self.ledger.go_on_from(back.ledger) {
             return Status::Stopped(Stop::new(StopKind::Undecided, reason));
         }
-        match other {
-            Ok(other) => Status::Open(Box::new([other, end])),
-            Err(stop) => {
-                let words = format!(
-                    "one way from the sketch the path has an end ({}); the other way {stop}",
-                    end.reason
-                );
-                Status::Stopped(stop.in_words(words))
-            }
-        }
+        both_ways(end, other)
     }
 }

@@ -1,21 +1,23 @@
 //! The first tube of a run, around the sketch.
 
-use super::{EXIT, POINT_TOLERANCE, Test, Tracker};
+use super::{CameTo, EXIT, Halt, POINT_TOLERANCE, Test, Tracker};
 use crate::track::certified::reasons::{Rejection, no_direction};
 use crate::track::full::{Local, first_normal};
 use crate::track::{Options, Stop, StopKind};
 
 impl<const N: usize, T: Test<N>> Tracker<'_, N, T> {
     /// Proves the tube around the sketch. Tells whether the path ends in it.
-    pub(super) fn start(&mut self, options: &Options, max_h: f64) -> Result<bool, Stop> {
+    pub(super) fn start(&mut self, options: &Options, max_h: f64) -> Result<bool, Halt> {
         let equations = &self.equations;
         let mut at_sketch = <Local>::new(equations);
         at_sketch.z[0].copy_from_slice(&self.sketch.centre);
         let reverse = options.reverse;
         if first_normal(equations, &mut self.inverter, &mut at_sketch, reverse).is_err() {
-            self.is_singular = true;
             let pivots = at_sketch.pivot_ratio_of_jacobian(equations);
-            return Err(Stop::new(StopKind::Sketch, no_direction(pivots)));
+            return Err(Halt {
+                stop: Stop::new(StopKind::Sketch, no_direction(pivots)),
+                came_to: CameTo::Stuck { is_singular: true },
+            });
         }
         self.first_normal.copy_from_slice(&at_sketch.normal);
         loop {
@@ -31,7 +33,9 @@ impl<const N: usize, T: Test<N>> Tracker<'_, N, T> {
                     return Ok(is_done);
                 }
                 Err((rejection, _)) if options.extended && self.extend(rejection) => {}
-                Err((rejection, limit)) => return Err(self.stuck_at_sketch(rejection, limit)),
+                Err((rejection, limit)) => {
+                    return Err(self.stuck_at_sketch(rejection, limit).into());
+                }
             }
         }
     }

@@ -5,6 +5,7 @@ use crate::interval::ZERO;
 use crate::track::Control;
 use crate::track::certified::figures::FigureBox;
 use crate::track::certified::solution::{Same, SolutionProver};
+use crate::track::events::changes;
 
 /// Pieces of a tube's stretch on which t is looked at.
 const PIECES: usize = 16;
@@ -30,28 +31,12 @@ impl<const N: usize, T: Test<N>> Tracker<'_, N, T> {
             .at_start
             .get_or_insert_with(|| Box::new(SolutionProver::at_start(&self.homotopy, equations)));
         let mut x = equations.vector();
-        let mut t_at = |s: f64| {
-            tube.local.at(s, &mut x);
-            x[m]
+        let mut room = equations.vector();
+        let is_above = |s: f64| {
+            tube.local.at(s, &mut room);
+            room[m] > 0.0
         };
-        let place = |k: usize| from + (to - from) * (k as f64 / PIECES as f64);
-        let mut crossings = Vec::new();
-        for k in 0..PIECES {
-            let (mut a, mut b) = (place(k), place(k + 1));
-            let is_above = t_at(a) > 0.0;
-            if (t_at(b) > 0.0) == is_above {
-                continue;
-            }
-            for _ in 0..60 {
-                let middle = 0.5 * (a + b);
-                match (t_at(middle) > 0.0) == is_above {
-                    true => a = middle,
-                    false => b = middle,
-                }
-            }
-            crossings.push(0.5 * (a + b));
-        }
-        for s in crossings {
+        for s in changes((from, to), PIECES, is_above) {
             tube.local.at(s, &mut x);
             let Ok(found) = prover.prove(equations, &mut self.inverter, &x, false) else {
                 continue;

@@ -3,6 +3,7 @@
 use crate::linalg::Vector;
 use crate::track::certified::link::{Frame, Tube};
 use crate::track::certified::reasons::Rejection;
+use crate::track::events::halved;
 use crate::track::full::Equations;
 
 /// The next tube is expected to reach back over this fraction of its half length, as predicted.
@@ -116,15 +117,8 @@ impl StepControl {
 /// one, `there` at `reach` behind its exit, and exponential in between.
 fn interpolated((here, there): (f64, f64), exit: f64, reach: f64) -> f64 {
     let rate = (there / here).ln() / (exit + reach);
-    let (mut lo, mut hi) = (0.0, reach);
-    for _ in 0..8 {
-        let middle = 0.5 * (lo + hi);
-        if middle < REACH_SEEN * here * (rate * (exit + middle)).exp() {
-            lo = middle;
-        } else {
-            hi = middle;
-        }
-    }
+    let is_reached = |s: f64| s < REACH_SEEN * here * (rate * (exit + s)).exp();
+    let (lo, _) = halved((0.0, reach), 8, is_reached);
     lo.clamp(0.1 * reach, 0.9 * reach)
 }
 

@@ -16,10 +16,10 @@
 
 use super::super::ledger::Mark;
 use super::super::link::{Ball, Frame, Tube};
-use super::{Test, Tracker};
+use super::{Halt, Test, Tracker};
 use crate::linalg::Vector;
 use crate::system::Homotopy;
-use crate::track::{Control, Options, Stop};
+use crate::track::{Control, Options};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
@@ -149,7 +149,7 @@ impl<const N: usize, T: Test<N>> Tracker<'_, N, T> {
         &mut self,
         options: &Options,
         control: &mut Control,
-    ) -> Result<(), Stop> {
+    ) -> Result<(), Halt> {
         let ways = Arc::new(Ways::default());
         let way = |number| {
             let ways = Arc::clone(&ways);

@@ -2,7 +2,7 @@
 
 use super::creep::Creep;
 use super::crossing::Crossing;
-use super::{POINT_TOLERANCE, Test, Tracker};
+use super::{CameTo, Halt, POINT_TOLERANCE, Test, Tracker};
 use crate::track::certified::reasons::{
     Doubt, Rejection, precision, undecided, unlinked, unproved, unrefined,
 };
@@ -22,23 +22,30 @@ impl<const N: usize, T: Test<N>> Tracker<'_, N, T> {
     }
 
     fn condition(&self) -> String {
-        match condition(
-            &self.equations,
-            &self.now.local.z[0],
-            &self.now.local.normal,
-        ) {
+        match self.condition_number() {
             Some(condition) => format!(" (condition of the Jacobian about {condition:.1e})"),
             None => String::new(),
         }
     }
 
+    fn condition_number(&self) -> Option<f64> {
+        let now = &self.now.local;
+        condition(&self.equations, &now.z[0], &now.normal)
+    }
+
+    /// Whether a run that gets no farther is near a place where the Jacobian loses rank.
+    fn is_singular(&self) -> bool {
+        let condition = self.condition_number();
+        condition.is_none_or(|condition| condition > SINGULAR)
+    }
+
     /// Why the run ends here, a tube of about the half length `reach` being the last that was tried.
-    pub(super) fn stuck(&mut self, rejection: Rejection, reach: f64, limit: f64) -> Stop {
-        self.note_stuck();
+    pub(super) fn stuck(&mut self, rejection: Rejection, reach: f64, limit: f64) -> Halt {
+        let is_singular = self.is_singular();
         let t = self.now.local.z[0][self.equations.m];
         let remark = self.homotopy.remark_on_lengths(t);
         let kind = match rejection {
-            _ if self.is_singular => StopKind::Singular,
+            _ if is_singular => StopKind::Singular,
             Rejection::Undecided(Doubt::Sign(_) | Doubt::Vanishes(_)) => StopKind::Undefined,
             Rejection::Undecided(_) => StopKind::Undecided,
             _ => StopKind::NoStep,
@@ -50,13 +57,16 @@ impl<const N: usize, T: Test<N>> Tracker<'_, N, T> {
             precision(self.extension.is_on()),
             self.place()
         );
-        Stop::new(kind, words)
+        Halt {
+            stop: Stop::new(kind, words),
+            came_to: CameTo::Stuck { is_singular },
+        }
     }
 
     /// Why the run ends where the last tubes lead nowhere.
-    pub(super) fn creeps(&mut self, Creep { tubes, length }: Creep) -> Stop {
-        self.note_stuck();
-        let kind = match self.is_singular {
+    pub(super) fn creeps(&self, Creep { tubes, length }: Creep) -> Halt {
+        let is_singular = self.is_singular();
+        let kind = match is_singular {
             true => StopKind::Singular,
             false => StopKind::NoStep,
         };
@@ -68,28 +78,28 @@ impl<const N: usize, T: Test<N>> Tracker<'_, N, T> {
             self.place(),
             self.homotopy.remark_on_lengths(t)
         );
-        Stop::new(kind, words)
-    }
-
-    /// Notes that the run gets no farther, and whether that is near a place where the Jacobian loses rank.
-    fn note_stuck(&mut self) {
-        let now = &self.now.local;
-        let condition = condition(&self.equations, &now.z[0], &now.normal);
-        self.is_singular = condition.is_none_or(|condition| condition > SINGULAR);
-        self.is_stuck = true;
-    }
-
-    /// The reason why a run ends where no step can be proved, after the words for a figure that is not rigid at t = 1,
-    /// if that is what the path comes to.
-    pub(super) fn with_flexibility(&self, stop: Stop) -> Stop {
-        if !self.is_stuck || self.arc.is_some() {
-            return stop;
+        Halt {
+            stop: Stop::new(kind, words),
+            came_to: CameTo::Stuck { is_singular },
         }
+    }
+
+    /// The reason why a run ends, after the words for a figure that is not rigid at t = 1, if no step can be proved and that is
+    /// what the path comes to.
+    pub(super) fn with_flexibility(&self, Halt { stop, came_to }: Halt) -> Stop {
+        match came_to {
+            CameTo::Stuck { .. } => match self.flexibility() {
+                Some(words) => Stop::new(StopKind::Flexible, format!("{words}; {stop}")),
+                None => stop,
+            },
+            _ => stop,
+        }
+    }
+
+    /// The words for a figure near the last point that is not rigid at t = 1.
+    pub(super) fn flexibility(&self) -> Option<String> {
         let (z, m) = (&self.now.local.z[0], self.equations.m);
-        match flexible::in_words(&self.homotopy, z, z[m]) {
-            Some(words) => Stop::new(StopKind::Flexible, format!("{words}; {stop}")),
-            None => stop,
-        }
+        flexible::in_words(&self.homotopy, z, z[m])
     }
 
     /// Why it ends at the sketch.

@@ -1,5 +1,6 @@
 //! What tests of both spaces look at along a chain: where it starts, tubes' middles, their links.
 
+use super::super::link::Frame;
 use super::*;
 
 /// The sketch, with t = 0.
@@ -100,4 +101,52 @@ pub fn link_is_true<const N: usize, Y>(
         .zip(&along)
         .fold(point(0.0), |sum, (a, b)| sum + *a * *b);
     near && product.sup() > 0.0
+}
+
+/// Whether a tube is found to lead to another; if so that is true.
+#[track_caller]
+pub fn leads_truly<const N: usize, Y: Frame>(
+    exact: &Exact,
+    from: &Tube<N, Y>,
+    to: &Tube<N, Y>,
+) -> bool {
+    let link = from.leads_to(to);
+    let is_true = link.is_none_or(|entry| link_is_true(exact, from, to, entry));
+    assert!(is_true, "linked to a tube that it does not lead to");
+    link.is_some()
+}
+
+/// The mirror image of a point or of a direction.
+pub fn mirrored(homotopy: &Homotopy, v: &[f64]) -> Vec<f64> {
+    let (m, axis) = (homotopy.equations, homotopy.dimension - 1);
+    let is_turned = |i: usize| i < m && homotopy.flips(i, axis);
+    let entry = |i: usize| if is_turned(i) { -v[i] } else { v[i] };
+    (0..=m).map(entry).collect()
+}
+
+/// Linked tubes from a first one on, at most `count`, each tried at most so many half lengths behind the exit of the one before:
+/// `next` makes one at a point, with a normal, to which the last one leads. `room` is for points.
+pub fn chain<S, const N: usize, Y: Preconditioner>(
+    first: S,
+    (count, reach): (usize, f64),
+    room: Vector,
+    tube: impl Fn(&S) -> &Tube<N, Y>,
+    mut next: impl FnMut(&S, &[f64], &[f64]) -> Option<S>,
+) -> Vec<S> {
+    let (mut z, mut normal) = (room.clone(), room);
+    let (mut chain, mut trust) = (vec![first], 1.0f64);
+    while chain.len() < count && trust > 1e-6 {
+        let last = &chain[chain.len() - 1];
+        let from = tube(last);
+        let advance = from.exit_at + reach * trust * from.proof.h;
+        from.local.predict(advance, None, &mut z, &mut normal);
+        match next(last, &z, &normal) {
+            Some(next) => {
+                chain.push(next);
+                trust = (1.5 * trust).min(1.0);
+            }
+            None => trust *= 0.6,
+        }
+    }
+    chain
 }

@@ -276,7 +276,7 @@ fn no_fault_leads_to_a_false_claim_near_singular_places() {
         "hard/flaps-apart-3",
         "hard/fold-missed-5",
     ];
-    for problem in precise::problems(&names) {
+    for problem in problems(&names) {
         for _ in 0..effort(2) {
             let how = (-12.0, &[Space::Full][..]);
             let sound = try_faults(&problem, how, 3000, &mut random, &mut tally);
@@ -302,7 +302,7 @@ fn no_fault_leads_to_a_false_claim_with_other_constraints() {
         "constraints/6p7d3a2c-closed",
         "constraints/pentahedron",
     ];
-    for problem in precise::problems(&names) {
+    for problem in problems(&names) {
         for _ in 0..effort(3) {
             let how = (-4.0, &[Space::Full][..]);
             let sound = try_faults(&problem, how, 1000, &mut random, &mut tally);

@@ -8,6 +8,7 @@ use super::solutions::check_solutions;
 use super::*;
 use crate::places::Each as _;
 use crate::rational::Rational;
+use crate::track::events::halved;
 use crate::track::{Control, Options, Status, solve};
 use num_bigint::BigInt;
 use num_traits::Signed;
@@ -296,16 +297,9 @@ fn tent(random: &mut Random) -> (Problem, Known) {
                 return None;
             }
             if now < 0.0 {
-                let (mut lo, mut hi) = (t, t + direction * step);
-                for _ in 0..80 {
-                    let middle = 0.5 * (lo + hi);
-                    if height(k, middle) > 0.0 {
-                        lo = middle
-                    } else {
-                        hi = middle
-                    }
-                }
-                return Rational::from_float(lo);
+                let piece = (t, t + direction * step);
+                let (low, _) = halved(piece, 80, |t| height(k, t) > 0.0);
+                return Rational::from_float(low);
             }
             // A low that could dip below zero between two steps.
             if now > before && falling > before && before < 1e-4 {

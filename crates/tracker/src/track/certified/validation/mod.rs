@@ -25,7 +25,10 @@ pub use faults::inject as inject_fault;
 
 use crate::equations::Form;
 use crate::places::Each as _;
-use along::{at_sketch, check_entry, link_is_true, middle, sketch, slope};
+use crate::plan::testing;
+use along::{
+    at_sketch, chain, check_entry, leads_truly, link_is_true, middle, mirrored, sketch, slope,
+};
 
 use super::link::Tube;
 use crate::interval::rounding::{gamma, round_up};
@@ -95,18 +98,14 @@ fn from_environment(name: &str) -> Option<u64> {
     std::env::var(name).ok()?.parse().ok()
 }
 
-/// The problems that come with krawl.
+/// Problems that come with krawl, by their files' names.
+pub fn problems(names: &[&str]) -> Vec<Problem> {
+    names.iter().map(|name| testing::shipped(name)).collect()
+}
+
+/// Some of them.
 pub fn shipped() -> Vec<Problem> {
-    let read = |name: &str| {
-        Problem::read(format!(
-            "{}/../../problems/{name}.toml",
-            env!("CARGO_MANIFEST_DIR")
-        ))
-        .expect("a readable problem")
-    };
-    ["disulfide", "dodecagon", "icosahedron-c1", "octahedron"]
-        .map(read)
-        .into()
+    problems(&["disulfide", "dodecagon", "icosahedron-c1", "octahedron"])
 }
 
 /// A decimal times a power of ten, exactly. `None`: out of range.
@@ -436,29 +435,23 @@ impl Workshop {
         let Some(first) = first else {
             return Vec::new();
         };
-        let mut chain = vec![first];
-        let (mut z, mut normal) = (self.equations.vector(), self.equations.vector());
-        let mut trust = 1.0;
-        while chain.len() < count && trust > 1e-6 {
-            let last = &chain[chain.len() - 1].tube;
-            let advance = last.exit_at + 0.9 * trust * last.proof.h;
-            last.local.predict(advance, None, &mut z, &mut normal);
-            let kept = self.weights.clone();
-            let next = self.tube(&z, &normal, 1).and_then(|mut next| {
-                next.tube.entry = last.leads_to(&next.tube)?;
-                Some(next)
-            });
-            match next {
-                Some(next) => {
-                    chain.push(next);
-                    trust = (1.5f64 * trust).min(1.0);
-                }
-                None => {
+        let room = self.equations.vector();
+        chain(
+            first,
+            (count, 0.9),
+            room,
+            |sample| &sample.tube,
+            |last, z, normal| {
+                let kept = self.weights.clone();
+                let next = self.tube(z, normal, 1).and_then(|mut next| {
+                    next.tube.entry = last.tube.leads_to(&next.tube)?;
+                    Some(next)
+                });
+                if next.is_none() {
                     self.weights = kept;
-                    trust *= 0.6;
                 }
-            }
-        }
-        chain
+                next
+            },
+        )
     }
 }

@@ -17,7 +17,6 @@ fn sabotage(problem: &Problem, random: &mut Random, tally: &mut Tally) {
     let mut workshop = Workshop::new(&homotopy, f64::INFINITY);
     let chain = workshop.chain(&homotopy, 400);
     let n = exact.n;
-    let last_axis = |i: usize| i < exact.m && homotopy.flips(i, homotopy.dimension - 1);
     let stride = (chain.len() / 40).max(1);
     for k in (0..chain.len() - 1).step_by(stride) {
         let (from, next) = (&chain[k], &chain[k + 1]);
@@ -41,20 +40,11 @@ fn sabotage(problem: &Problem, random: &mut Random, tally: &mut Tally) {
         }
 
         // The mirror image, which meets the same equations.
-        let flip = |v: &[f64]| -> Vec<f64> {
-            (0..n)
-                .map(|i| if last_axis(i) { -v[i] } else { v[i] })
-                .collect()
-        };
+        let (z, normal) = (&next.tube.local.z[0], next.normal());
         workshop.weights.copy_from_slice(&next.tube.weights);
-        if let Some(mirrored) = workshop.tube(&flip(&next.tube.local.z[0]), &flip(next.normal()), 1)
-        {
-            if let Some(entry) = from.tube.leads_to(&mirrored.tube) {
-                assert!(
-                    link_is_true(&exact, &from.tube, &mirrored.tube, entry),
-                    "linked to the mirror image"
-                );
-            }
+        let image = workshop.tube(&mirrored(&homotopy, z), &mirrored(&homotopy, normal), 1);
+        if let Some(image) = image {
+            leads_truly(&exact, &from.tube, &image.tube);
             tally.mirrored += 1;
         }
 
@@ -65,51 +55,33 @@ fn sabotage(problem: &Problem, random: &mut Random, tally: &mut Tally) {
                 local.z[0][i] += spread * random.between(-1.0, 1.0);
             }
             let t = next.tube.local.z[0][n - 1];
-            if local
-                .refine_at(&workshop.equations, &mut workshop.inverter, t)
-                .is_none()
-            {
+            let (equations, inverter) = (&workshop.equations, &mut workshop.inverter);
+            if local.refine_at(equations, inverter, t).is_none() {
                 continue;
             }
             let start = local.z[0].clone();
-            let normal: Vec<f64> = if random.below(2) == 0 {
-                next.normal()[..n].to_vec()
-            } else if first_normal(
-                &workshop.equations,
-                &mut workshop.inverter,
-                &mut local,
-                random.below(2) == 0,
-            )
-            .is_ok()
-            {
-                local.normal[..n].to_vec()
+            if random.below(2) == 0 {
+                local.normal = next.tube.local.normal.clone();
             } else {
-                continue;
-            };
-            workshop.weights.copy_from_slice(&next.tube.weights);
-            if let Some(other) = workshop.tube(&start, &normal, 2) {
-                if let Some(entry) = from.tube.leads_to(&other.tube) {
-                    assert!(
-                        link_is_true(&exact, &from.tube, &other.tube, entry),
-                        "linked to another branch"
-                    );
-                } else {
-                    tally.branches += 1;
+                let reverse = random.below(2) == 0;
+                if first_normal(equations, inverter, &mut local, reverse).is_err() {
+                    continue;
                 }
+            }
+            let normal = local.normal[..n].to_vec();
+            workshop.weights.copy_from_slice(&next.tube.weights);
+            let other = workshop.tube(&start, &normal, 2);
+            if other.is_some_and(|other| !leads_truly(&exact, &from.tube, &other.tube)) {
+                tally.branches += 1;
             }
         }
 
         // Tubes left out, or taken in the wrong order.
-        for other in &chain {
-            tally.pairs += 1;
-            if let Some(entry) = from.tube.leads_to(&other.tube) {
-                tally.linked_pairs += 1;
-                assert!(
-                    link_is_true(&exact, &from.tube, &other.tube, entry),
-                    "tubes that do not touch were linked"
-                );
-            }
-        }
+        tally.pairs += chain.len();
+        let others = chain.iter();
+        tally.linked_pairs += others
+            .filter(|other| leads_truly(&exact, &from.tube, &other.tube))
+            .count();
     }
 }
 

@@ -2,10 +2,39 @@
 
 use super::{Bend, Differences, Equations};
 use crate::interval::rounding::{gamma, round_up};
+use crate::interval::{Interval, point};
 use crate::linalg::{LANE, Vector};
 use crate::places::Each as _;
+use crate::track::full::Tail;
 
 impl Equations {
+    /// The left-hand side of an equation at a point of floats, and its derivative along another, in intervals.
+    pub fn enclose_left(&self, e: usize, z: &[f64], along: &[f64]) -> (Interval, Interval) {
+        let (mut squared, mut moved) = (point(0.0), point(0.0));
+        for ends in &self.ends {
+            let [i, j] = ends[e].each(|end| end as usize);
+            let d = point(z[i]) - point(z[j]);
+            squared += d.sqr();
+            moved += d * (point(along[i]) - point(along[j]));
+        }
+        // The number 1 does not move.
+        let form = |form: usize, z: &[f64], one: f64| match form {
+            Tail::ONE => point(one),
+            _ => {
+                let [i, j] = self.tail.ends(form).each(|end| point(z[end]));
+                i - j
+            }
+        };
+        let mut value = squared * point(0.5);
+        for (half, forms) in self.tail.products(e) {
+            let [l, r] = forms.each(|k| form(k, z, 1.0));
+            let [dl, dr] = forms.each(|k| form(k, along, 0.0));
+            value += point(half) * l * r;
+            moved += point(half) * (l * dr + dl * r);
+        }
+        (value, moved)
+    }
+
     /// Of an equation at a point with these differences: `from` and the sizes of all parts of its derivative by X together,
     /// and how much these change at most per |w|, the largest change of an unknown.
     pub fn sizes_at(&self, e: usize, d: &Differences, from: f64) -> (f64, f64) {

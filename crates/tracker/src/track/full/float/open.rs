@@ -3,8 +3,8 @@
 use super::{Record, follow};
 use crate::system::Homotopy;
 use crate::track::ends::{
-    Away, EndKind, FAR, PathEnd, SETTLED, SINGULAR, farthest, places, size_of, vanishing,
-    vanishing_vector,
+    Away, DEGENERATE, EndKind, FAR, PathEnd, SETTLED, SINGULAR, both_ways, farthest, in_words,
+    places, size_of, vanishing,
 };
 use crate::track::full::{Equations, Preconditioner, condition};
 use crate::track::{Control, LARGEST_SQUARE, Options, Status, Stop, StopKind};
@@ -59,16 +59,7 @@ pub fn follow_both_ways<Y: Preconditioner>(
     record.go_on_from(back, equations.m);
     // Both ways begin there.
     record.meet(0.0);
-    let status = match halt.end {
-        Some(other) => Status::Open(Box::new([*other, *end])),
-        None => {
-            let words = format!(
-                "one way from the sketch the path has an end ({}); the other way {}",
-                end.reason, halt.stop
-            );
-            Status::Stopped(halt.stop.in_words(words))
-        }
-    };
+    let status = both_ways(*end, halt.end.map(|end| *end).ok_or(halt.stop));
     (status, record)
 }
 
@@ -153,12 +144,7 @@ impl<'h> Ends<'h> {
 
     /// The end of a path on which a point goes away; `place` says where, in words.
     pub fn infinite(&self, z: &[f64], away: Away, place: &str) -> Halt {
-        let name = self.homotopy.point_names.get(away.point);
-        let words = format!(
-            "{} is {:.4} away and moves away, ever farther as far as one can see, {place}",
-            name.map_or("a point", String::as_str),
-            away.distance.0
-        );
+        let words = format!("{}, {place}", in_words(self.homotopy, away));
         let end = PathEnd {
             away: Some(away),
             ..self.end(z, EndKind::Infinite, words.clone())
@@ -173,10 +159,8 @@ impl<'h> Ends<'h> {
     /// something has nearly vanished there, or if the equations have become dependent.
     pub fn stuck(&self, equations: &Equations, (z, normal): (&[f64], &[f64]), stop: Stop) -> Halt {
         let (homotopy, m) = (self.homotopy, self.homotopy.equations);
-        let first = homotopy.gauge.place.len();
         let leg = homotopy.remark_on_lengths(z[m]);
-        let small = vanishing(&homotopy.tail, &z[first..m], &self.sketch[first..m])
-            .or_else(|| vanishing_vector(homotopy, z, self.size_of_sketch));
+        let small = vanishing(homotopy, z, &self.sketch, self.size_of_sketch);
         // Where matrices would be too large nothing is said of the condition.
         let is_singular = || {
             equations.n() <= LARGEST_SQUARE
@@ -187,8 +171,7 @@ impl<'h> Ends<'h> {
         } else if !leg.is_empty() {
             (EndKind::Undefined, stop.text.clone())
         } else if is_singular() {
-            let what = "the figure becomes degenerate, its constraints dependent on each other";
-            (EndKind::Degenerate, format!("{what}: {stop}"))
+            (EndKind::Degenerate, format!("{DEGENERATE}: {stop}"))
         } else {
             return stop.into();
         };

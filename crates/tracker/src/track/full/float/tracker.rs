@@ -7,7 +7,7 @@ use crate::linalg::{Matrix, Vector};
 use crate::places::array;
 use crate::system::Homotopy;
 use crate::track::ends::ENDLESS;
-use crate::track::events::{Crossing, TimeAlong};
+use crate::track::events::{Crossing, TimeAlong, halved};
 use crate::track::full::{
     CrossingRoom, Equations, Local, ORDER, Preconditioner, dot, first_normal, path_length,
 };
@@ -333,15 +333,8 @@ fn extreme<Y>(local: &Path<Y>, from: f64, to: f64, t: usize) -> f64 {
             .rev()
             .fold(0.0, |sum, k| sum * s + k as f64 * local.z[k][t])
     };
-    let (mut a, mut b) = (from, to);
-    for _ in 0..50 {
-        let middle = 0.5 * (a + b);
-        if (slope(middle) > 0.0) == (slope(a) > 0.0) {
-            a = middle;
-        } else {
-            b = middle;
-        }
-    }
+    let rises = slope(from) > 0.0;
+    let (a, _) = halved((from, to), 50, |s| (slope(s) > 0.0) == rises);
     (0..=ORDER)
         .rev()
         .fold(0.0, |sum, k| sum * a + local.z[k][t])

@@ -207,12 +207,7 @@ impl Corrector {
         };
         tangent(self, evaluation)?;
         let way = self.there.null(&mut self.step) * self.orientation;
-        let size = self
-            .step
-            .iter()
-            .fold(Lanes::ZERO, |sum, &x| sum.plus_product(x, x))
-            .sum()
-            .sqrt();
+        let size = length(&self.step);
         for (j, q) in self.q.iter_mut().enumerate() {
             *q += delta * way / size * lane(&self.step, j);
         }
@@ -236,12 +231,7 @@ impl Corrector {
             for (x, y) in self.step.iter_mut().zip(&self.null) {
                 *x = x.plus(-along / square, *y);
             }
-            let size = self
-                .step
-                .iter()
-                .fold(Lanes::ZERO, |sum, &x| sum.plus_product(x, x))
-                .sum()
-                .sqrt();
+            let size = length(&self.step);
             self.move_by_step(evaluation, &mut next.z);
             if size <= self.converged {
                 let error = distance(&next.z, &next.tangent);
@@ -308,6 +298,12 @@ impl Corrector {
         }
         best < REFINED * dot(z, z).sqrt()
     }
+}
+
+/// The length of a vector of parameters.
+fn length(x: &[Lanes]) -> f64 {
+    let square = |sum: Lanes, &x: &Lanes| sum.plus_product(x, x);
+    x.iter().fold(Lanes::ZERO, square).sum().sqrt()
 }
 
 /// Lifts a vector of the null space to the full space and makes it a unit vector there, pointing

@@ -1,6 +1,7 @@
 //! The cubic between two points of the path whose tangents are known.
 
 use crate::places::Each as _;
+use crate::track::events::{halved, middle_of};
 
 /// The cubic x(s), s from 0 to h, with given values and slopes at both ends.
 #[derive(Debug, Clone, Copy)]
@@ -77,25 +78,13 @@ impl Cubic {
                 return Passages::Unclear;
             }
             if (from.1 >= 0.0) != (to.1 >= 0.0) {
-                out[found] = self.bisect(value, from, to);
+                let is_like = |s: f64| (self.value(s) - value >= 0.0) == (from.1 >= 0.0);
+                out[found] = middle_of(halved((from.0, to.0), 60, is_like));
                 found += 1;
             }
             from = to;
         }
         Passages::At(out, found)
-    }
-
-    fn bisect(&self, value: f64, mut a: (f64, f64), mut b: (f64, f64)) -> f64 {
-        for _ in 0..60 {
-            let s = 0.5 * (a.0 + b.0);
-            let y = self.value(s) - value;
-            if (y >= 0.0) == (a.1 >= 0.0) {
-                a = (s, y);
-            } else {
-                b = (s, y);
-            }
-        }
-        0.5 * (a.0 + b.0)
     }
 }
 

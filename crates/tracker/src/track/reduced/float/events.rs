@@ -21,11 +21,7 @@ impl Tracker<'_> {
     /// Looks at the piece from the current point to the next, `h` long. `error` is about how
     /// far it may be from the cubic.
     pub(super) fn look_between(&mut self, h: f64, error: f64) -> Events {
-        let piece = Piece {
-            from: &self.current,
-            to: &self.next,
-            h,
-        };
+        let piece = Piece::new(&self.current, &self.next, h);
         let t = piece.t();
         let reach = |value: f64| {
             let near = (t.x[0] - value).abs().min((t.x[1] - value).abs());
@@ -62,11 +58,7 @@ impl Tracker<'_> {
     /// Finds the solution near arc length `s` of the piece in full precision, at t = 1.
     fn record_solution(&mut self, s: f64, h: f64, error: f64) -> bool {
         let places = self.homotopy.sketch.len();
-        let piece = Piece {
-            from: &self.current,
-            to: &self.next,
-            h,
-        };
+        let piece = Piece::new(&self.current, &self.next, h);
         let guess = &mut self.predicted;
         piece.at(s, guess);
         guess[places] = 1.0;
@@ -87,11 +79,7 @@ impl Tracker<'_> {
     /// Where the piece passes through the sketch in the direction in which the path set off.
     fn passes_sketch(&mut self, h: f64, error: f64) -> Result<Option<f64>, ()> {
         let start = &self.start;
-        let piece = Piece {
-            from: &self.current,
-            to: &self.next,
-            h,
-        };
+        let piece = Piece::new(&self.current, &self.next, h);
         if distance(&self.next.z, &start.z) > 2.0 * h + error {
             return Ok(None);
         }

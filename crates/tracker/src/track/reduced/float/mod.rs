@@ -174,16 +174,16 @@ impl<'a> Tracker<'a> {
     fn settle(&mut self) -> Result<(), Status> {
         self.evaluation.recover_branch(self.current.figure());
         let PathPoint { z, tangent } = &mut self.current;
-        if self
+        let room = &mut self.next.tangent;
+        match self
             .corrector
-            .settle(&mut self.evaluation, z, tangent, &mut self.next.tangent)
+            .settle(&mut self.evaluation, z, tangent, room)
         {
-            Ok(())
-        } else {
-            Err({
+            true => Ok(()),
+            false => {
                 let why = "the construction plan has no figure or no tangent";
-                self.stopped(StopKind::NoStep, why)
-            })
+                Err(self.stopped(StopKind::NoStep, why))
+            }
         }
     }
 
@@ -199,11 +199,7 @@ impl<'a> Tracker<'a> {
     /// Makes `next`, which is `h` away, the current point. The path is measured up to the arc
     /// length `s`, less than `h` only where it ends.
     fn advance(&mut self, h: f64, s: f64) {
-        let piece = Piece {
-            from: &self.current,
-            to: &self.next,
-            h,
-        };
+        let piece = Piece::new(&self.current, &self.next, h);
         self.length += piece.length(s, self.homotopy.unit);
         let t = piece.t();
         let (turns, count) = t.turning_points();

@@ -34,12 +34,16 @@ impl PathPoint {
 
 /// The piece of the path between two points, `h` long.
 pub(super) struct Piece<'a> {
-    pub from: &'a PathPoint,
-    pub to: &'a PathPoint,
-    pub h: f64,
+    from: &'a PathPoint,
+    to: &'a PathPoint,
+    h: f64,
 }
 
-impl Piece<'_> {
+impl<'a> Piece<'a> {
+    pub fn new(from: &'a PathPoint, to: &'a PathPoint, h: f64) -> Self {
+        Piece { from, to, h }
+    }
+
     /// The cubic through both ends at arc length `s` from the first; beyond the second end it
     /// is the predictor.
     pub fn at(&self, s: f64, out: &mut [f64]) {

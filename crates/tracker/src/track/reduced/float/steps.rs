@@ -140,12 +140,8 @@ impl Tracker<'_> {
 
     fn attempt(&mut self, h: f64) -> Attempt {
         match self.behind {
-            Some(behind) => Piece {
-                from: &self.previous,
-                to: &self.current,
-                h: behind,
-            }
-            .at(behind + h, &mut self.predicted),
+            Some(behind) => Piece::new(&self.previous, &self.current, behind)
+                .at(behind + h, &mut self.predicted),
             None => {
                 let point = self.current.z.iter().zip(&self.current.tangent);
                 for (out, (z, u)) in self.predicted.iter_mut().zip(point) {

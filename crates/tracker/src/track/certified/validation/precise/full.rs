@@ -282,15 +282,6 @@ fn check_problem(
     }
 }
 
-fn check_all(names: &[&str], generated: &[Problem], counts: (usize, usize), seed: u64) {
-    let list = problems(names).into_iter().chain(generated.iter().cloned());
-    let list = list.map(|problem| {
-        let homotopy = Homotopy::new(&problem).expect("a gauge");
-        (problem, homotopy)
-    });
-    check_homotopies(list, counts, seed);
-}
-
 fn check_homotopies(
     list: impl Iterator<Item = (Problem, Homotopy)>,
     counts: (usize, usize),
@@ -320,7 +311,7 @@ fn full_bounds_dominate_exact_values_of_small_problems() {
             random_problem(&mut random, dimension, points, 0.3)
         })
         .collect();
-    check_all(&[], &list, (4, 2), 45);
+    check_homotopies(with_homotopies(list), (4, 2), 45);
 }
 
 #[test]
@@ -374,36 +365,12 @@ fn the_bend_counts_to_its_last_order_in_the_full_space() {
 
 #[test]
 fn full_bounds_dominate_exact_values() {
-    check_all(
-        &[
-            "octahedron",
-            "disulfide",
-            "k33",
-            "prism",
-            "icosahedron-c1",
-            "dodecagon",
-        ],
-        &[generated(Family::Strip, 31)],
-        (3, 2),
-        41,
-    );
+    let mut list = problems(&REGULAR);
+    list.push(generated(Family::Strip, 31));
+    check_homotopies(with_homotopies(list), (3, 2), 41);
 }
 
 #[test]
 fn full_bounds_dominate_exact_values_near_singular_places() {
-    check_all(
-        &[
-            "hard/flaps-apart-3",
-            "hard/graze-4",
-            "hard/fold-5",
-            "hard/crowd-2",
-            "hard/sliver-3",
-            "hard/lengths-1",
-            "hard/tents-split-4",
-            "hard/triple-2",
-        ],
-        &[],
-        (5, 2),
-        42,
-    );
+    check_homotopies(with_homotopies(problems(&SINGULAR)), (5, 2), 42);
 }

@@ -83,16 +83,33 @@ impl Ratios {
     }
 }
 
-/// Problems to look at: small and large, in the plane and in space, nearly singular ones.
-pub fn problems(names: &[&str]) -> Vec<Problem> {
-    let read = |name: &&str| {
-        Problem::read(format!(
-            "{}/../../problems/{name}.toml",
-            env!("CARGO_MANIFEST_DIR")
-        ))
-        .expect("a readable problem")
-    };
-    names.iter().map(read).collect()
+/// Problems to look at: small and large, in the plane and in space,
+pub const REGULAR: [&str; 6] = [
+    "octahedron",
+    "disulfide",
+    "k33",
+    "prism",
+    "icosahedron-c1",
+    "dodecagon",
+];
+/// and nearly singular ones.
+pub const SINGULAR: [&str; 8] = [
+    "hard/flaps-apart-3",
+    "hard/graze-4",
+    "hard/fold-5",
+    "hard/crowd-2",
+    "hard/sliver-3",
+    "hard/lengths-1",
+    "hard/tents-split-4",
+    "hard/triple-2",
+];
+
+/// Problems with their homotopies.
+pub fn with_homotopies(problems: Vec<Problem>) -> impl Iterator<Item = (Problem, Homotopy)> {
+    problems.into_iter().map(|problem| {
+        let homotopy = Homotopy::new(&problem).expect("a gauge");
+        (problem, homotopy)
+    })
 }
 
 /// A generated one.

@@ -374,20 +374,6 @@ fn check_problem(
     }
 }
 
-fn check_all(
-    names: &[&str],
-    generated: &[Problem],
-    (tubes, rounds): (usize, usize),
-    seed: u64,
-) -> Ratios {
-    let list = problems(names).into_iter().chain(generated.to_vec());
-    let list = list.map(|problem| {
-        let homotopy = Homotopy::new(&problem).expect("a gauge");
-        (problem, homotopy)
-    });
-    check_homotopies(list, (tubes, rounds), seed)
-}
-
 fn check_homotopies(
     list: impl Iterator<Item = (Problem, Homotopy)>,
     (tubes, rounds): (usize, usize),
@@ -418,40 +404,15 @@ const NEAR: [(&str, f64); 11] = [
 
 #[test]
 fn reduced_bounds_dominate_exact_values() {
-    let ratios = check_all(
-        &[
-            "octahedron",
-            "disulfide",
-            "k33",
-            "prism",
-            "icosahedron-c1",
-            "dodecagon",
-        ],
-        &[generated(Family::Chain, 48), generated(Family::Strip, 31)],
-        (4, 2),
-        31,
-    );
-    ratios.come_near(&NEAR);
+    let mut list = problems(&REGULAR);
+    list.extend([generated(Family::Chain, 48), generated(Family::Strip, 31)]);
+    check_homotopies(with_homotopies(list), (4, 2), 31).come_near(&NEAR);
 }
 
 #[test]
 fn reduced_bounds_dominate_exact_values_near_singular_places() {
-    let ratios = check_all(
-        &[
-            "hard/flaps-apart-3",
-            "hard/graze-4",
-            "hard/fold-5",
-            "hard/crowd-2",
-            "hard/sliver-3",
-            "hard/lengths-1",
-            "hard/tents-split-4",
-            "hard/triple-2",
-        ],
-        &[],
-        (6, 2),
-        32,
-    );
-    ratios.come_near(&NEAR);
+    let list = with_homotopies(problems(&SINGULAR));
+    check_homotopies(list, (6, 2), 32).come_near(&NEAR);
 }
 
 #[test]

@@ -125,11 +125,7 @@ fn check_problem(
 #[test]
 fn what_is_taken_along_and_radii_from_defects_are_bounded() {
     let (mut ratios, mut random) = (Ratios::default(), Random::new(34));
-    let shipped = problems(&["octahedron", "disulfide", "k33", "dodecagon"]).into_iter();
-    let shipped = shipped.map(|problem| {
-        let homotopy = Homotopy::new(&problem).expect("a gauge");
-        (problem, homotopy)
-    });
+    let shipped = with_homotopies(problems(&["octahedron", "disulfide", "k33", "dodecagon"]));
     for (problem, homotopy) in shipped.chain(tails(55, 6)) {
         let given = (&problem, &homotopy);
         check_problem(given, effort(12), &mut random, &mut ratios)
