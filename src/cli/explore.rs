@@ -119,6 +119,8 @@ pub fn run(arguments: &Arguments) -> u8 {
 fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let file = arguments.file.display();
     let (problem, published) = read(arguments)?;
+    output::say_if_signs_are_not_looked_at(&problem);
+    let problem = problem.unsigned();
     let json = arguments
         .json
         .as_deref()

@@ -21,11 +21,11 @@ use krawl::report::page::Page;
 use krawl::report::{
     BlockRuns, Listed, ProgressLine, Run, alone_in_words, alone_to_value, among_in_words,
     figures_to_summary, figures_to_table, figures_to_value, first_in_words, part_in_words,
-    to_first_table, to_no_first, to_short_table, to_summary, to_table,
+    signed_in_words, to_first_table, to_no_first, to_short_table, to_summary, to_table,
 };
 use krawl::track::{
-    self, Control, EndKind, First, Limit, Options, Outcome, PathEnd, Progress, Status, Trace,
-    Witness,
+    self, Control, EndKind, First, Limit, Options, Outcome, PathEnd, Progress, Signs, Status,
+    Trace, Witness,
 };
 use serde_json::Value;
 use std::io::BufWriter;
@@ -411,6 +411,10 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         written &= well;
         let tested = surplus.as_ref().map(|surplus| surplus.test(&mut outcome));
         let tested = tested.as_ref();
+        Signs::of(problem).test(&mut outcome, problem.dimension);
+        let unsigned = outcome.signed.unwrap_or_default();
+        let struck =
+            unsigned.wrong + unsigned.undecided + tested.map_or(0, |tested| tested.missed as u64);
         let unbounded = Unbounded::of(&outcome.status);
         let reason = match &outcome.status {
             Status::Stopped(reason) => Some(&*reason.text),
@@ -521,12 +525,10 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         written &= arguments.take.write(from, problem, listed, |number| {
             Taken::of(problem, &outcome.solutions[number as usize], false)
         });
-        let is_undecided =
-            arguments.mode == Mode::Certified && tested.is_some_and(|tested| !tested.is_decided());
+        let is_undecided = arguments.mode == Mode::Certified
+            && (tested.is_some_and(|tested| !tested.is_decided()) || unsigned.undecided > 0);
         worst = match (&outcome.status, worst) {
-            _ if arguments.first && tested.is_some_and(|tested| tested.missed > 0) => {
-                worse(worst, LIMIT)
-            }
+            _ if arguments.first && struck > 0 => worse(worst, LIMIT),
             _ if first.is_some() && !is_undecided => worst,
             _ if turns_at.is_some() => worse(worst, LIMIT),
             (Status::Stopped(_), _) | (_, STOPPED) => STOPPED,
@@ -557,11 +559,12 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             let text = match (first, arguments.first) {
                 (Some(text), _) => text + &arguments.part_in_words(tested),
                 // It is there, and no figure of the problem.
-                (None, true) if tested.is_some_and(|tested| tested.missed > 0) => {
+                (None, true) if struck > 0 => {
                     format!(
-                        "{}: No solution without a fold. {}",
+                        "{}: No solution without a fold. {}{}\n",
                         problem.name,
-                        arguments.part_in_words(tested)
+                        arguments.part_in_words(tested),
+                        signed_in_words(&outcome).replace(" Of these", "Of the figures there")
                     )
                 }
                 (None, true) if turns_at.is_some() => to_no_first(problem, turns_at),
@@ -594,7 +597,9 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             written &= output::print(&format!("{gap}{whole}{text}{hints}"));
         }
         let alone = match outcome.status == Status::Closed && outcome.solutions.is_empty() {
-            true if (!silent || json.is_some()) && tested.is_none() => arguments.alone(problem),
+            true if (!silent || json.is_some()) && struck == 0 && tested.is_none() => {
+                arguments.alone(problem)
+            }
             _ => Vec::new(),
         };
         if !silent {
@@ -692,7 +697,8 @@ fn follow_blocks(
     let mut code = CLOSED;
     let mut runs = Vec::with_capacity(blocks.len());
     for block in blocks {
-        let (outcome, _, _) = follow(arguments, &block, name, which, None, None)?;
+        let (mut outcome, _, _) = follow(arguments, &block, name, which, None, None)?;
+        Signs::of(&block).test(&mut outcome, block.dimension);
         code = worse(
             code,
             match &outcome.status {
@@ -841,7 +847,11 @@ impl Arguments {
 
     /// How many of all figures the path has, where that is wanted and costs little.
     fn among(&self, problem: &Problem, outcome: &Outcome, is_told: bool) -> Option<Among> {
-        let is_wanted = is_told && !self.no_count && !self.first && self.mode == Mode::Certified;
+        let is_wanted = is_told
+            && problem.orientations.is_empty()
+            && !self.no_count
+            && !self.first
+            && self.mode == Mode::Certified;
         is_wanted.then(|| among(problem, outcome))?
     }
 
@@ -1122,7 +1132,8 @@ fn follow_finely(
     };
     let traced = track::trace_path(problem, &arguments.options(), &mut control);
     line.clear();
-    let (finer, trace) = traced.ok()?;
+    let (mut finer, trace) = traced.ok()?;
+    Signs::of(problem).test(&mut finer, problem.dimension);
     let kind = |outcome: &Outcome| std::mem::discriminant(&outcome.status);
     if kind(&finer) != kind(outcome) || finer.solutions.len() != outcome.solutions.len() {
         return None;

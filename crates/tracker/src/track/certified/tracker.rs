@@ -123,6 +123,7 @@ pub fn track<const N: usize, T: Test<N>>(
     }
     let (plan_changes, driving) = tracker.test.plans();
     Outcome {
+        signed: None,
         mode: Mode::Certified,
         space: T::SPACE,
         status,
