@@ -4,6 +4,8 @@ use krawl::certificate::cover::verify_cover;
 use krawl::complete::{Complete, Options, Status, all};
 use krawl::constraint::Symmetry;
 use krawl::problem::{Orientation, Problem};
+use krawl::track::{Outcome, Signs, prove};
+use std::collections::BTreeSet;
 
 /// The sign of the determinant of a figure, from floats.
 fn sign(figure: &[[f64; 3]], points: &[usize]) -> f64 {
@@ -297,4 +299,35 @@ fn bad_signs_are_refused() {
             "{list}: {error}"
         );
     }
+}
+
+/// Of the figures on a path those that have all signs stay, as they are or as their mirror images, each once.
+#[test]
+fn a_path_has_the_figures_with_the_signs() {
+    let problem = disulfide();
+    let sets: [&[usize]; 2] = [&[0, 1, 2, 7], &[2, 3, 4, 5]];
+    let whole = prove(&problem).unwrap();
+    let classes = |outcome: &Outcome| {
+        let classes = outcome.solutions.iter().map(|s| s.class);
+        classes.collect::<BTreeSet<usize>>()
+    };
+    let mut all = BTreeSet::new();
+    for second in [true, false] {
+        let asked = with(&problem, &[(sets[0], true), (sets[1], second)]);
+        let mut outcome = whole.clone();
+        Signs::of(&asked).test(&mut outcome, 3);
+        let signed = outcome.signed.unwrap();
+        assert_eq!((signed.found, signed.undecided), (8, 0));
+        for solution in &outcome.solutions {
+            let figure: Vec<[f64; 3]> =
+                solution.points.iter().map(|p| p.map(|x| x.mid())).collect();
+            let wanted = [1.0, if second { 1.0 } else { -1.0 }];
+            assert_eq!([0, 1].map(|k| sign(&figure, sets[k])), wanted);
+        }
+        let own = classes(&outcome);
+        assert_eq!(own.len(), outcome.solutions.len());
+        assert!(own.is_disjoint(&all));
+        all.extend(own);
+    }
+    assert_eq!(all, classes(&whole));
 }
