@@ -73,6 +73,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let template = arguments.template.as_deref().map(TemplateText::read);
     let template = template.transpose()?;
     let (problem, mut lowered) = read(&arguments.file, template.as_ref())?;
+    output::say_if_signs_are_not_looked_at(&problem);
     if let Some(bound) = arguments.bound {
         lowered.cite(bound.into());
     }

@@ -12,7 +12,7 @@ use krawl::edit::{Asked, Astray, Drag, Edited, Ending, OpenError, Session, Setti
 use krawl::import::Format;
 use krawl::problem::Problem;
 use krawl::remarks::moves;
-use krawl::report::{account_in_words, edit_to_document, edit_to_table};
+use krawl::report::{account_in_words, edit_to_document, edit_to_table, signs_of_figure};
 use krawl::track::{Control, Options, StopKind, Witness};
 use std::fs::File;
 use std::io::{BufWriter, Write};
@@ -269,6 +269,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         };
         let mut text = as_turns + &drawn + &table + &account_in_words(&edited.account);
         text += &measures.to_table(of, figure());
+        text += &signs_of_figure(&problem, &edited.points);
         for warning in &warnings {
             text += &format!("warning             {warning}\n");
         }

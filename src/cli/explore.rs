@@ -115,6 +115,8 @@ pub fn run(arguments: &Arguments) -> u8 {
 fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let file = arguments.file.display();
     let (problem, published) = read(arguments)?;
+    output::say_if_signs_are_not_looked_at(&problem);
+    let problem = problem.unsigned();
     let json = beside([&arguments.file], arguments.json.as_deref())?;
     let pictures = arguments.pictures.places([&arguments.file])?;
     let cancel = interrupt::flag();

@@ -54,6 +54,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let shown = arguments.file.display();
     let loaded = input::load(&arguments.file, arguments.sketch.as_deref())?;
     let problem = &loaded.problem;
+    output::say_if_signs_are_not_looked_at(problem);
     let only = arguments
         .only
         .iter()

@@ -63,6 +63,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     arguments.time.begin();
     let loaded = input::load(&arguments.file, arguments.sketch.as_deref())?;
     let problem = &loaded.problem;
+    output::say_if_signs_are_not_looked_at(problem);
     // What can be measured is known before anything is followed.
     let measures = arguments.measured.of_points(problem)?;
     let json = beside([&arguments.file], arguments.json.as_deref())?;

@@ -1,8 +1,18 @@
 //! Writing, with no panic where nobody reads.
 
+use krawl::problem::Problem;
+use krawl::report::signs_not_looked_at;
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+
+/// Says on standard error that the signs that a problem asks for are not looked at, where it asks for some.
+pub fn say_if_signs_are_not_looked_at(problem: &Problem) {
+    let words = signs_not_looked_at(problem);
+    if !words.is_empty() {
+        complain(&format!("{}:{words}", problem.name));
+    }
+}
 
 /// Prints one message on standard error. If that is closed there is nobody to tell.
 pub fn complain(message: &str) {

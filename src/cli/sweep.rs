@@ -119,6 +119,7 @@ fn drive(arguments: &Arguments, vary: &str, ends: [&str; 2]) -> Result<u8, Strin
     let shown = arguments.file.display();
     let loaded = input::load(&arguments.file, arguments.sketch.as_deref())?;
     let problem = &loaded.problem;
+    output::say_if_signs_are_not_looked_at(problem);
     let in_file = |error: &dyn std::fmt::Display| format!("{shown}: {error}");
     let named = ends.each(|value| (vary, value));
     let asked = Asked::of_dimensions(problem, &named).map_err(|e| in_file(&e))?;

@@ -70,6 +70,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     arguments.time.begin();
     let shown = arguments.file.display();
     let (problem, made) = input::whole(&arguments.file, arguments.sketch.as_deref())?;
+    output::say_if_signs_are_not_looked_at(&problem);
     let json = beside([&arguments.file], arguments.json.as_deref())?;
     let csv = beside([&arguments.file], arguments.csv.as_deref())?;
     let pictures = arguments.pictures.places([&arguments.file])?;

@@ -115,6 +115,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             ),
         };
     }
+    text += without_signs(of_file);
     if !arguments.quiet && !output::print(&text) {
         return Ok(BAD_INPUT);
     }
@@ -154,6 +155,17 @@ fn of_file(
         (Ok(own), without) => Ok(std::iter::once(own).chain(without).collect()),
         (Err(_), Some(without)) => Ok(vec![without]),
         (Err(error), None) => Err(error),
+    }
+}
+
+/// What a certificate does not say where its file asks for signs.
+fn without_signs(of_file: OfFile) -> &'static str {
+    match of_file {
+        Some([(problem, _), ..]) if !problem.orientations.is_empty() => {
+            "The signs that the file asks for (`orientation`) are no part of the proof: it is of figures with any signs. Which \
+             of them have those of the file is told by their boxes, in `krawl solve` and `krawl all`.\n"
+        }
+        _ => "",
     }
 }
 
@@ -201,6 +213,7 @@ fn print_with_problem(
     mut text: String,
     (same, compared): (bool, Compared),
     found: &Account,
+    signs: &str,
 ) -> bool {
     if let Some(file) = &arguments.file {
         let (what, which) = match compared {
@@ -231,7 +244,7 @@ fn print_with_problem(
             ),
         };
     }
-    arguments.quiet || output::print(&text)
+    arguments.quiet || output::print(&(text + signs))
 }
 
 /// Checks a set of complex solutions.
@@ -241,8 +254,9 @@ fn verify_the_set(arguments: &Arguments, bytes: &[u8], of_file: OfFile) -> Resul
     let verdict = super::in_pool(arguments.threads, || verify_complex_set(bytes))?;
     let verdict = verdict.map_err(|error| format!("{name}: {error}"))?;
     let text = complex_set_theorem(&verdict, clock.elapsed());
+    let signs = without_signs(of_file);
     let (same, found) = compare(of_file, |problem| verdict.is_about(problem));
-    if !print_with_problem(arguments, text, (same, verdict.compared()), &found) {
+    if !print_with_problem(arguments, text, (same, verdict.compared()), &found, signs) {
         return Ok(BAD_INPUT);
     }
     Ok(match verdict.flaw {
@@ -260,8 +274,9 @@ fn verify_the_cover(arguments: &Arguments, bytes: &[u8], of_file: OfFile) -> Res
     let verdict = check_cover(bytes, arguments.threads, arguments.quiet, || true);
     let verdict = verdict.map_err(|error| format!("{name}: {error}"))?;
     let text = cover_theorem(&verdict, clock.elapsed());
+    let signs = without_signs(of_file);
     let (same, found) = compare(of_file, |problem| verdict.is_about(problem));
-    if !print_with_problem(arguments, text, (same, verdict.compared()), &found) {
+    if !print_with_problem(arguments, text, (same, verdict.compared()), &found, signs) {
         return Ok(BAD_INPUT);
     }
     Ok(match verdict.proves_all() {

@@ -303,6 +303,7 @@ mod tests {
         };
         Measured {
             outcome: Outcome {
+                signed: None,
                 mode,
                 space: Space::Full,
                 status: match ending {

@@ -262,6 +262,7 @@ impl Drawing {
             source,
             points,
             objects: self.objects,
+            orientations: Vec::new(),
             constraints: self.constraints.into_iter().map(|c| c.0).collect(),
             homotopy: HomotopyChoices {
                 reference: Vec::new(),

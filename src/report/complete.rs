@@ -12,7 +12,7 @@ use crate::complete::{Among, Choice, Complete, Constructed, Method, Status, Test
 use crate::constraint::{Symmetry, symmetry};
 use crate::interval::Interval;
 use crate::problem::{Object, Problem, Shape, counted, list};
-use crate::track::Mode;
+use crate::track::{Mode, Signed};
 use std::fmt::Write;
 
 /// Of the parts that a sketch falls apart into, so many are shown.
@@ -80,6 +80,7 @@ impl<'a> Document<'a> {
                 count: choice.count,
             }),
             tested: result.tested.as_ref().map(Counts::new),
+            signed: result.signed.map(Signs::from),
             solutions: result
                 .solutions
                 .iter()
@@ -129,6 +130,8 @@ struct Document<'a> {
     decided_first: Option<Independent<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     tested: Option<Counts<'a>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    signed: Option<Signs>,
     solutions: Vec<Entry<'a>>,
     undecided: Vec<Undecided>,
     boxes: u64,
@@ -192,6 +195,28 @@ impl<'a> Counts<'a> {
     }
 }
 
+/// What came of the figures by the signs that are asked for.
+#[derive(serde::Serialize)]
+pub(super) struct Signs {
+    asked: usize,
+    parts_given_up: u64,
+    wrong: u64,
+    mirrored: usize,
+    undecided: u64,
+}
+
+impl From<Signed> for Signs {
+    fn from(signed: Signed) -> Self {
+        Signs {
+            asked: signed.asked,
+            parts_given_up: signed.cut,
+            wrong: signed.wrong,
+            mirrored: signed.mirrored,
+            undecided: signed.undecided,
+        }
+    }
+}
+
 /// A part of a problem that falls apart.
 #[derive(serde::Serialize)]
 struct Piece<'a> {
@@ -225,6 +250,7 @@ fn why(why: Why) -> &'static str {
         Why::Vanishing => {
             "whether a vector that must not vanish has a length, or a length is positive, is not certain"
         }
+        Why::Sign => "a figure of which a sign that is asked for cannot be told",
         Why::Apart => "solutions too close to each other to be told apart",
     }
 }
@@ -397,6 +423,18 @@ fn span(seconds: f64) -> String {
 
 /// What was found, in words that claim no more than was proved.
 fn verdict(problem: &Problem, result: &Complete) -> String {
+    let signed = result.signed.map_or_else(String::new, |signed| {
+        let cut = counted(signed.cut as usize, "part");
+        let wrong = counted(signed.wrong as usize, "figure");
+        let but = match signed.undecided {
+            0 => String::new(),
+            n => format!(" Of {} a sign cannot be told: these are not counted either.", counted(n as usize, "figure")),
+        };
+        format!(
+            " Figures without {} are not counted: {cut} of the search and {wrong} were struck out for that.{but}",
+            signs_in_words(signed.asked)
+        )
+    });
     let names: Vec<String> = result
         .both_ways
         .iter()
@@ -413,7 +451,7 @@ fn verdict(problem: &Problem, result: &Complete) -> String {
             names.join(", ")
         );
     }
-    words + &supposed(problem)
+    words + &signed + &supposed(problem)
 }
 
 /// The same but for what is said of sides and lengths.
@@ -484,6 +522,14 @@ fn without_sides(problem: &Problem, result: &Complete) -> String {
                 different.replace(" are", "")
             )
         }
+    }
+}
+
+/// The signs that are asked for.
+pub(super) fn signs_in_words(asked: usize) -> String {
+    match asked {
+        1 => "the sign asked for (`orientation`)".to_owned(),
+        n => format!("the {n} signs asked for (`orientation`)"),
     }
 }
 

@@ -4,7 +4,7 @@ use super::columns::{DIGITS, written};
 use super::drawing::Drawing;
 use super::edit::{bounds, numbers_to_value, points_to_value, write_numbers, write_points};
 use super::objects::joints_to_value;
-use super::supposed::supposed;
+use super::supposed::{signs_not_looked_at, supposed};
 use crate::blocks::{BlockAccount, Chosen, Comparison, Figures, First, Sense, Way};
 use crate::problem::{Shape, counted, list};
 use serde_json::{Value, json};
@@ -112,6 +112,7 @@ fn claim_in_words(figures: &Figures) -> String {
     out += &provided(figures);
     out.push('.');
     out += &supposed(figures.problem());
+    out += signs_not_looked_at(figures.problem());
     out += &senses_in_words(figures);
     let left_out = figures.account().left_out_in_words();
     if !left_out.is_empty() {

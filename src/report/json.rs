@@ -1,6 +1,6 @@
 //! Results for programs (docs/using/programs.md, docs/schema/result.schema.json).
 
-use super::complete::Counts;
+use super::complete::{Counts, Signs};
 use super::drawing::{Drawing, names};
 use super::edit::alone_to_value;
 use super::marks::Marks;
@@ -108,6 +108,8 @@ struct Document<'a> {
     verdict: String,
     #[serde(skip_serializing_if = "Option::is_none")]
     tested: Option<Counts<'a>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    signed: Option<Signs>,
     #[serde(skip_serializing_if = "Option::is_none")]
     ends: Option<Vec<End<'a>>>,
     orientations: Vec<WrittenSet<'a>>,
@@ -226,6 +228,7 @@ impl<'a> Document<'a> {
             stopped_kind: stop.map(|stop| stop.kind.name()),
             verdict: verdict(problem, outcome, tested),
             tested: tested.map(Counts::new),
+            signed: outcome.signed.map(Signs::from),
             ends: ends(problem, &outcome.status),
             solutions: outcome
                 .solutions

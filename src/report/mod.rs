@@ -56,10 +56,14 @@ pub use measured::{Measures, Placed};
 pub use motion::{motion_in_words, motion_to_csv, motion_to_table, motion_to_value};
 #[cfg(feature = "cli")]
 pub use progress::ProgressLine;
+pub use supposed::{signs_not_looked_at, signs_of_figure};
 pub use sweep::{
     frames_to_csv, ranges_to_table, ranges_to_value, sweep_in_words, sweep_to_csv, sweep_to_value,
 };
-pub use table::{part_in_words, to_first_table, to_no_first, to_short_table, to_summary, to_table};
+pub use table::{
+    part_in_words, signed_in_words, to_first_table, to_no_first, to_short_table, to_summary,
+    to_table,
+};
 pub use theorem::theorem;
 pub use tolerance::{
     tolerances_in_words, tolerances_to_csv, tolerances_to_table, tolerances_to_value,
@@ -96,6 +100,7 @@ mod tests {
             )
         };
         Outcome {
+            signed: None,
             mode,
             space: Space::Full,
             status,

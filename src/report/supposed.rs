@@ -1,11 +1,53 @@
 //! What equations suppose to be greater than 0, so that figures in which it is 0 are none.
 
 use crate::constraint::{equations_with_roots, supposed_lengths};
+use crate::interval::Interval;
 use crate::places::Each as _;
-use crate::problem::{Problem, list};
+use crate::problem::{Orientation, Problem, list};
+use crate::system::orientation;
+use crate::track::{Signs, Stand};
 
 /// Most names in one list.
 const LISTED: usize = 8;
+
+/// That nothing is said of the signs that a problem asks for, in a sentence with a space before it; empty where it asks for none.
+pub fn signs_not_looked_at(problem: &Problem) -> &'static str {
+    match problem.orientations.is_empty() {
+        true => "",
+        false => {
+            " The signs asked for (`orientation`) are not looked at here: figures may have others."
+        }
+    }
+}
+
+/// How a figure stands to the signs that a problem asks for, as a line of text; empty where it asks for none.
+pub fn signs_of_figure(problem: &Problem, points: &[[Interval; 3]]) -> String {
+    if problem.orientations.is_empty() {
+        return String::new();
+    }
+    let signs = Signs::of(problem);
+    let words = match signs.of_figure(points) {
+        Stand::Right => "as asked for (`orientation`), proved".to_owned(),
+        Stand::Mirrored => {
+            "all the other way round: its mirror image has those asked for (`orientation`), proved"
+                .to_owned()
+        }
+        _ => {
+            let is_right = |one: &Orientation| {
+                orientation(points, &one.points) == if one.is_positive { 1 } else { -1 }
+            };
+            let others = (0..signs.all.len()).filter(|&k| !is_right(&signs.all[k]));
+            let others: Vec<String> = others
+                .map(|k| format!("`{}`", problem.orientation_name(k)))
+                .collect();
+            format!(
+                "the figure has not, or is not proved to have, {}",
+                list(&others, LISTED)
+            )
+        }
+    };
+    format!("signs               {words}\n")
+}
 
 /// Which figures are none though the words of the constraints may hold in them, in a sentence with a space before it; empty where there are
 /// none such.

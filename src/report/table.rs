@@ -2,7 +2,7 @@
 
 use super::certain_digits;
 use super::columns::{DIGITS, write_points, written};
-use super::complete::tested_in_words;
+use super::complete::{signs_in_words, tested_in_words};
 use super::drawing::names;
 use super::marks::Marks;
 use crate::complete::Tested;
@@ -64,6 +64,14 @@ pub fn to_summary(problem: &Problem, outcome: &Outcome, tested: Option<&Tested>)
             line += &format!(", {} struck out", tested.missed);
         }
     }
+    if let Some(signed) = outcome.signed
+        && signed.wrong + signed.undecided > 0
+    {
+        line += &format!(
+            "   {} without the signs struck out",
+            signed.wrong + signed.undecided
+        );
+    }
     if let Status::Stopped(reason) = &outcome.status {
         line += &format!("   {}", without_stop(reason));
     }
@@ -117,7 +125,11 @@ fn write_table(out: &mut String, problem: &Problem, ran: Ran, most: usize) -> fm
         problem.name,
         verdict(problem, outcome, tested)
     )?;
-    let found = tested.and_then(|tested| tested.found).unwrap_or(0);
+    let of_signs = outcome.signed.map(|signed| signed.found);
+    let found = tested
+        .and_then(|tested| tested.found)
+        .or(of_signs)
+        .unwrap_or(0);
     if outcome.status == Status::Closed && outcome.solutions.is_empty() && found == 0 {
         match problem.impossible_triangle() {
             Some(message) => writeln!(out, "There can be none: {message}.")?,
@@ -192,8 +204,18 @@ pub(super) fn verdict(problem: &Problem, outcome: &Outcome, tested: Option<&Test
         (_, c, _) => format!(" Up to congruence and reflection they are {c}."),
     };
     let different = different + &degenerate(outcome);
+    let signed = signed_in_words(outcome);
     if let Some(tested) = tested {
-        return verdict_of_a_part(outcome, tested, &different);
+        let path = format!(
+            "with {} the path through the sketch has",
+            used_in_words(tested)
+        );
+        let others = tested_in_words(tested) + &signed;
+        return verdict_of_a_part(outcome, (path, tested.found, others), &different);
+    }
+    if let Some(all) = outcome.signed {
+        let path = "the path through the sketch has".to_owned();
+        return verdict_of_a_part(outcome, (path, Some(all.found), signed), &different);
     }
     match (outcome.mode, &outcome.status) {
         (Mode::Certified, Status::Closed) => {
@@ -296,18 +318,54 @@ pub fn part_in_words(tested: &Tested) -> String {
     format!("Followed with {used}, to {figures}.{others}")
 }
 
-/// What was found where a part of the constraints was followed, and how the figures that have these stand to the others.
-fn verdict_of_a_part(outcome: &Outcome, tested: &Tested, different: &str) -> String {
-    let path = format!(
-        "with {} the path through the sketch has",
-        used_in_words(tested)
-    );
-    let (exactly, points) = match tested.found.unwrap_or(u64::MAX) {
+/// How the figures of a path stand to the signs that are asked for, as a sentence behind another one.
+pub fn signed_in_words(outcome: &Outcome) -> String {
+    let Some(signed) = outcome.signed else {
+        return String::new();
+    };
+    let count = outcome.solutions.len();
+    let have = if count == 1 { "has" } else { "have" };
+    let mut parts = vec![format!("{count} {have} {}", signs_in_words(signed.asked))];
+    if signed.mirrored > 0 {
+        parts[0] += ", as its mirror image is listed where that has them";
+    }
+    if signed.wrong > 0 {
+        let are = if signed.wrong == 1 {
+            "has not and is no solution"
+        } else {
+            "have not and are no solutions"
+        };
+        parts.push(format!("{} {are}", signed.wrong));
+    }
+    if signed.undecided > 0 {
+        let n = signed.undecided;
+        parts.push(format!(
+            "of {n} a sign cannot be told: not listed, and maybe a solution"
+        ));
+    }
+    let again = signed.found - signed.wrong - signed.undecided - count as u64;
+    if again > 0 {
+        let are = if again == 1 {
+            "is the mirror image of one"
+        } else {
+            "are mirror images of some"
+        };
+        parts.push(format!("{again} {are} of them and the same figure then"));
+    }
+    format!(" Of these {}.", parts.join("; "))
+}
+
+/// What was found where figures of the path were struck out, and how the figures stand to what they were struck out for.
+fn verdict_of_a_part(
+    outcome: &Outcome,
+    (path, found, others): (String, Option<u64>, String),
+    different: &str,
+) -> String {
+    let (exactly, points) = match found.unwrap_or(u64::MAX) {
         0 => ("", "no point with t = 1".to_owned()),
         1 => ("exactly ", "one point with t = 1".to_owned()),
         n => ("exactly ", format!("{n} points with t = 1")),
     };
-    let others = tested_in_words(tested);
     let proved = match outcome.mode {
         Mode::Certified => "proved",
         Mode::Float => "observed (floating-point tracking, not a proof)",

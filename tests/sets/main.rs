@@ -21,3 +21,4 @@ mod miscounted;
 mod more_than_square;
 mod poses;
 mod sides;
+mod signs;

@@ -6,7 +6,7 @@ use crate::cli::verify::check_written;
 use krawl::certificate::Writer;
 use krawl::problem::Problem;
 use krawl::report::ProgressLine;
-use krawl::track::{self, Control, First, Outcome, Progress, Status, Trace, Witness};
+use krawl::track::{self, Control, First, Outcome, Progress, Signs, Status, Trace, Witness};
 use std::io::BufWriter;
 use std::sync::atomic::Ordering;
 
@@ -111,7 +111,8 @@ pub(super) fn follow_finely(
     };
     let traced = track::trace_path(problem, &arguments.options(), &mut control);
     line.clear();
-    let (finer, trace) = traced.ok()?;
+    let (mut finer, trace) = traced.ok()?;
+    Signs::of(problem).test(&mut finer, problem.dimension);
     let kind = |outcome: &Outcome| std::mem::discriminant(&outcome.status);
     if kind(&finer) != kind(outcome) || finer.solutions.len() != outcome.solutions.len() {
         return None;

@@ -16,10 +16,10 @@ use krawl::complete::{Among, Tested, among};
 use krawl::edit::{Alone, alone};
 use krawl::problem::Problem;
 use krawl::report::{
-    BlockRuns, Run, alone_in_words, alone_to_value, among_in_words, part_in_words, to_first_table,
-    to_no_first, to_short_table, to_summary, to_table,
+    BlockRuns, Run, alone_in_words, alone_to_value, among_in_words, part_in_words, signed_in_words,
+    to_first_table, to_no_first, to_short_table, to_summary, to_table,
 };
-use krawl::track::{Control, Limit, Options, Outcome, Status, Trace};
+use krawl::track::{Control, Limit, Options, Outcome, Signs, Status, Trace};
 use serde_json::Value;
 use std::path::Path;
 use std::sync::atomic::Ordering;
@@ -233,8 +233,14 @@ impl<'a> Told<'a> {
         let surplus = asked.surplus.as_ref();
         let tested = surplus.map(|surplus| surplus.test(&mut outcome));
         let tested = tested.as_ref();
+        Signs::of(problem).test(&mut outcome, problem.dimension);
+        let signed = outcome.signed.unwrap_or_default();
+        let missed = tested.map_or(0, |tested| tested.missed as u64);
+        let is_missed = signed.wrong + signed.undecided + missed > 0;
+        // Signs may be of points of several blocks.
+        let is_plain = tested.is_none() && problem.orientations.is_empty();
         let can_be_cut =
-            is_certified && !arguments.first && !cancel.load(Ordering::Relaxed) && tested.is_none();
+            is_certified && !arguments.first && !cancel.load(Ordering::Relaxed) && is_plain;
         if can_be_cut && self.cut((problem, &outcome), (file, which), gap)? {
             return Ok(false);
         }
@@ -266,10 +272,10 @@ impl<'a> Told<'a> {
         let from = (file, arguments.sketch.as_deref());
         let figure = |number| Taken::of(problem, &outcome.solutions[number as usize], false);
         self.written &= arguments.take.write(from, problem, candidates, figure);
-        let is_undecided = is_certified && tested.is_some_and(|tested| !tested.is_decided());
-        let is_missed = arguments.first && tested.is_some_and(|tested| tested.missed > 0);
+        let is_tested = tested.is_none_or(Tested::is_decided);
+        let is_undecided = is_certified && (!is_tested || signed.undecided > 0);
         self.worst = match (&outcome.status, self.worst) {
-            (_, worst) if is_missed => worse(worst, LIMIT),
+            (_, worst) if arguments.first && is_missed => worse(worst, LIMIT),
             (_, worst) if first.is_some() && !is_undecided => worst,
             (_, worst) if turns_at.is_some() => worse(worst, LIMIT),
             (Status::Stopped(_), _) | (_, STOPPED) => STOPPED,
@@ -298,7 +304,12 @@ impl<'a> Told<'a> {
                 (Some(text), _) => text + &part,
                 // It is there, and no figure of the problem.
                 (None, true) if is_missed => {
-                    format!("{}: No solution without a fold. {part}", problem.name)
+                    let struck =
+                        signed_in_words(&outcome).replace(" Of these", "Of the figures there");
+                    format!(
+                        "{}: No solution without a fold. {part}{struck}\n",
+                        problem.name
+                    )
                 }
                 (None, true) if turns_at.is_some() => to_no_first(problem, turns_at),
                 (None, true) if !is_certified => format!(
@@ -326,7 +337,7 @@ impl<'a> Told<'a> {
         // What the path came to is out by now.
         let is_told = (!self.silent || self.has_json) && tested.is_none();
         let has_none = outcome.status == Status::Closed && outcome.solutions.is_empty();
-        let alone = match has_none && is_told {
+        let alone = match has_none && is_told && !is_missed {
             true => arguments.alone(problem),
             false => Vec::new(),
         };
@@ -376,7 +387,8 @@ impl Arguments {
 
     /// How many of all figures the path has, where that is wanted and costs little.
     fn among(&self, problem: &Problem, outcome: &Outcome, is_told: bool) -> Option<Among> {
-        let is_wanted = is_told && !self.no_count && !self.first && self.mode == Mode::Certified;
+        let is_asked = !self.no_count && !self.first && self.mode == Mode::Certified;
+        let is_wanted = is_told && is_asked && problem.orientations.is_empty();
         is_wanted.then(|| among(problem, outcome))?
     }
 

@@ -11,6 +11,7 @@ pub const MOST_POINTS: usize = 400;
 ///
 /// Cut at such places, a problem that has as many distances as free coordinates, where they are needed, gives parts that
 /// have so too: with n points, k parts and s shared distances (1 or 3) the sums are those of one. The shared
+/// signs that a problem asks for of points in one part alone are asked for of that part. The shared
 /// distances are exact numbers, so that figures of the parts, one of each, fit together, each as it is or mirrored; and
 /// every figure of the whole is made of figures of the parts.
 ///
@@ -132,6 +133,10 @@ fn part(problem: &Problem, points: &[usize], number: usize, of: usize) -> Option
         .all(|p| points.contains(p))
     {
         builder = builder.reference(problem.homotopy.reference.iter().map(|&p| name(p)));
+    }
+    let oriented = problem.orientations.iter();
+    for one in oriented.filter(|one| one.points.iter().all(|p| points.contains(p))) {
+        builder = builder.orientation(one.points.iter().map(|&p| name(p)), one.is_positive);
     }
     let coefficient = problem.homotopy.bend_coefficient.clone();
     builder.bend_coefficient(coefficient).finish().ok()

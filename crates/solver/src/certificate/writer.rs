@@ -262,7 +262,12 @@ impl<W: Write> Witness for Writer<'_, W> {
     fn begin(&mut self, unit: f64) {
         let exponent = unit.log2() as i16;
         self.unit = unit;
-        self.result = write_header(&mut self.out, PROGRAM, &self.problem.to_toml(), exponent);
+        self.result = write_header(
+            &mut self.out,
+            PROGRAM,
+            &self.problem.unsigned().to_toml(),
+            exponent,
+        );
     }
 
     fn tube(&mut self, tube: TubeSeen) {

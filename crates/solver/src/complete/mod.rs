@@ -42,6 +42,7 @@ mod pieces;
 mod place;
 mod plan;
 mod search;
+mod signs;
 mod spare;
 mod store;
 mod surplus;
@@ -76,7 +77,25 @@ use visit::Found;
 /// Of distances alone by a construction plan, part by part where they fall apart; of other constraints over all coordinates. The
 /// sketch plays a part only where constraints say less than they mean (docs/using/problem-files.md): on which side a point is, which
 /// of two angles is meant.
+///
+/// Where the problem asks for signs, parts of the search in which all figures have a wrong one are given up, and the figures found are those
+/// that have all signs, up to rigid motions. A cover is of all figures, whatever their signs.
 pub fn all(problem: &Problem, options: &Options) -> Result<Complete, Unserved> {
+    if problem.orientations.is_empty() {
+        return unsigned(problem, options);
+    }
+    let result = match options.cover {
+        true => unsigned(&problem.unsigned(), options),
+        false => unsigned(problem, options),
+    };
+    result.map(|mut result| {
+        result.choose_signed(problem);
+        result
+    })
+}
+
+/// All figures of the search, where none is looked at by its signs once it is found.
+fn unsigned(problem: &Problem, options: &Options) -> Result<Complete, Unserved> {
     let begin = Instant::now();
     let wants_one_search = options.cover || options.store.is_some();
     if options.within_digits

@@ -137,7 +137,15 @@ impl Range {
     /// Whether no value is zero, by more than a billionth of `size`: a margin, so that whoever
     /// evaluates the same function with other roundings comes to the same end.
     pub fn misses_zero(&self, size: f64) -> bool {
-        self.lo > 1e-9 * size || self.hi < -1e-9 * size
+        self.sign(size) != 0
+    }
+
+    /// The sign of all values, by the same margin; 0 where they have not one.
+    pub fn sign(&self, size: f64) -> i8 {
+        match self.lo > 1e-9 * size {
+            true => 1,
+            false => -i8::from(self.hi < -1e-9 * size),
+        }
     }
 }
 

@@ -14,7 +14,7 @@ use crate::interval::{Interval, around, point};
 use crate::order::InOrder;
 use crate::places::array;
 use crate::problem::Problem;
-use crate::track::Solution;
+use crate::track::{Signed, Solution};
 use serde::{Deserialize, Serialize};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::Thread;
@@ -87,6 +87,8 @@ pub struct Complete {
     /// Of a problem with more constraints than unknowns: how the figures that were found stand to those that were left out. Figures that miss one
     /// are no solutions.
     pub tested: Option<Tested>,
+    /// Of a problem that asks for signs: what came of the figures by these.
+    pub signed: Option<Signed>,
     /// What is undecided, by reasons.
     pub undecided: Vec<Part>,
     /// Why there is no solution, where that can be said in words; or what stands in the way of the claim.
@@ -118,13 +120,18 @@ impl Complete {
             .tested
             .as_ref()
             .map_or(self.count, |tested| tested.found);
+        let count = self.signed.map_or(count, |signed| Some(signed.found));
         let same = count.is_some() && verdict.solutions == count;
         let settles = self.status != Status::Complete && verdict.proves_all() && same;
         if settles {
-            self.status = Status::Complete;
-            (self.undecided, self.reason, self.seconds_left) = (Vec::new(), None, None);
+            // The cover says nothing of signs.
+            self.undecided.retain(|part| part.why == Why::Sign);
+            (self.reason, self.seconds_left) = (None, None);
+            if self.undecided.is_empty() {
+                self.status = Status::Complete;
+            }
         }
-        settles
+        settles && self.status == Status::Complete
     }
 }
 
@@ -344,6 +351,7 @@ impl Complete {
             turned: Vec::new(),
             solutions: Vec::new(),
             tested: None,
+            signed: None,
             reference: problem.homotopy.reference.clone(),
             undecided: Vec::new(),
             reason: Some(reason),
@@ -505,6 +513,7 @@ impl Complete {
             turned: Vec::new(),
             solutions,
             tested: None,
+            signed: Signed::cut(found.cut),
             reference,
             undecided,
             reason,

@@ -11,12 +11,15 @@ use super::surplus::Tested;
 use super::{Complete, Options, Part, Status, Unserved, Why, all, exact};
 use crate::blocks::{Combined, LeftOut, clusters};
 use crate::order::InOrder;
-use crate::problem::Problem;
-use crate::track::Solution;
+use crate::problem::{Orientation, Problem};
+use crate::track::{Signed, Signs, Solution};
 use std::time::Instant;
 
 /// The figures of the whole that are listed at most.
 pub(super) const LISTED: u64 = 1000;
+
+/// The figures that are looked at one by one, at most, where signs are asked for of points that are in no part together.
+const LOOKED_AT: u64 = 20_000;
 
 /// A part that was searched by itself.
 #[derive(Debug, Clone)]
@@ -137,7 +140,7 @@ fn put_together(
         .collect();
     let combined = Combined::new(problem, blocks, solutions)?;
     whole.count = combined.count();
-    if !combined.has_all_mirror_images() {
+    if !combined.has_all_mirror_images(blocks) {
         // Then combinations are not counted once each.
         whole.count = Some(0);
         leave(
@@ -146,6 +149,17 @@ fn put_together(
         );
         return Some(());
     }
+    let mut signed = parts_signed(problem, parts);
+    signed.found = whole.count.unwrap_or(u64::MAX);
+    let across = Signs {
+        all: across(problem, blocks),
+        mirrors: !combined.is_signed(),
+    };
+    if !across.all.is_empty() {
+        one_by_one(&combined, &across, signed, whole);
+        return Some(());
+    }
+    whole.signed = (signed.asked > 0).then_some(signed);
     for number in 0..whole.count.map_or(LISTED, |count| count.min(LISTED)) {
         // Where boxes of the parts are too wide to put a figure together, or to tell it from one before, the list ends. What is
         // proved of all figures does not rest on it.
@@ -163,6 +177,66 @@ fn put_together(
         whole.solutions.push(solution);
     }
     Some(())
+}
+
+/// What the parts have come to by signs of their own, and how many signs are asked for in all.
+fn parts_signed(problem: &Problem, parts: &[Searched]) -> Signed {
+    let of_parts = parts.iter().filter_map(|part| part.result.signed);
+    of_parts.fold(
+        Signed {
+            asked: problem.orientations.len(),
+            ..Signed::default()
+        },
+        |all, one| Signed {
+            cut: all.cut + one.cut,
+            wrong: all.wrong + one.wrong,
+            ..all
+        },
+    )
+}
+
+/// The signs that are asked for of points that are in no part together.
+fn across(problem: &Problem, blocks: &[Problem]) -> Vec<Orientation> {
+    let is_in = |block: &Problem, p: usize| {
+        let mut points = block.points.iter();
+        points.any(|point| point.name == problem.points[p].name)
+    };
+    let signs = problem.orientations.iter();
+    let across = signs.filter(|one| {
+        let mut blocks = blocks.iter();
+        !blocks.any(|block| one.points.iter().all(|&p| is_in(block, p)))
+    });
+    across.cloned().collect()
+}
+
+/// The figures of the whole that have signs beside those of its parts: each is looked at.
+fn one_by_one(combined: &Combined, across: &Signs, mut signed: Signed, whole: &mut Complete) {
+    let dimension = whole.reference.len();
+    let looked_at = signed.found.min(LOOKED_AT);
+    signed.undecided = signed.found - looked_at;
+    for number in 0..looked_at {
+        let points = combined.figure(&combined.choices(number));
+        let solution = points.map(|points| Solution::placed(points, whole.solutions.len()));
+        let mut one: Vec<Solution> = solution.into_iter().collect();
+        if one.is_empty() {
+            signed.undecided += 1;
+        }
+        across.choose(&mut one, dimension, &mut signed);
+        let others = &whole.solutions;
+        match one.pop() {
+            Some(one) if others.iter().all(|other| are_apart(&one, other)) => {
+                whole.solutions.push(one)
+            }
+            // It is there, and not told from another one.
+            Some(_) => signed.undecided += 1,
+            None => {}
+        }
+    }
+    whole.count = Some(whole.solutions.len() as u64);
+    whole.signed = Some(signed);
+    if signed.undecided > 0 {
+        whole.leave(Why::Sign, signed.undecided);
+    }
 }
 
 /// Takes the claim back.

@@ -224,6 +224,18 @@ fn normal<const D: usize, const S: usize, const M: usize>(
     })
 }
 
+/// The determinant of the sides of a simplex from its first point.
+pub fn determinant<const D: usize, const S: usize, const M: usize>(
+    points: &[Place<D, S, M>],
+    simplex: &[usize],
+) -> Model<S, M> {
+    let side = |k: usize| minus(&points[simplex[k]], &points[simplex[0]]);
+    match D {
+        2 => dot(&normal(&side(1), &side(1)), &side(2)),
+        _ => dot(&side(1), &normal(&side(2), &side(3))),
+    }
+}
+
 /// Places the point of a step.
 pub fn place<const D: usize, const S: usize, const M: usize>(
     plan: &Plan,

@@ -12,6 +12,7 @@ use super::targets::Targets;
 use super::visit::{Found, Rooms, Why, visit};
 use crate::linalg::damped;
 use crate::places::Each as _;
+use crate::track::Signs;
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 use rayon::prelude::*;
 use std::sync::Mutex;
@@ -31,6 +32,9 @@ pub struct Search {
     pub signed: Vec<usize>,
     /// The negatives of the squared distances wanted.
     pub minus_squares: Vec<Number>,
+    /// For each step the signs that are asked for of its point and those before alone, as soon as there are two of them: mirror images are on no other
+    /// footing.
+    pub signs: Vec<Signs>,
     /// For each step, the points that stand before and have no given distance from the new one, with bounds of the
     /// squared distance.
     pub pairs: Vec<Vec<(usize, [f64; 2])>>,
@@ -117,6 +121,7 @@ impl Search {
             });
         }
         let mut standing = plan.base.clone();
+        let signs = signs(&targets.signs, &plan);
         let bounded = plan.steps.iter().map(|step| {
             let others = standing
                 .iter()
@@ -126,6 +131,7 @@ impl Search {
             bounds
         });
         Ok(Search {
+            signs,
             pairs: bounded.collect(),
             prover: Prover::new(targets, &plan),
             minus_squares: targets.squares.iter().map(|&s| Number::new(-s)).collect(),
@@ -344,6 +350,27 @@ impl Search {
         }
         ((&j * &v).norm() < 1e-4).then_some(v)
     }
+}
+
+/// For each step of a plan the signs to be looked at once its point stands.
+fn signs(all: &Signs, plan: &Plan) -> Vec<Signs> {
+    let mut standing = plan.base.clone();
+    let steps = plan.steps.iter().map(|step| {
+        standing.push(step.point);
+        let stand = |points: &[usize]| points.iter().all(|p| standing.contains(p));
+        let known = all.all.iter().filter(|one| stand(&one.points));
+        let known: Vec<_> = known.cloned().collect();
+        let is_new = known.iter().any(|one| one.points.contains(&step.point));
+        Signs {
+            all: if is_new && known.len() > 1 {
+                known
+            } else {
+                Vec::new()
+            },
+            mirrors: all.mirrors,
+        }
+    });
+    steps.collect()
 }
 
 /// Figures without repetitions: mirror images in the base are one. `Err` if two of them cannot be told

@@ -2,6 +2,7 @@
 
 use crate::interval::{Interval, enclose, hull, point};
 use crate::problem::{Problem, Target};
+use crate::track::Signs;
 
 /// The points and distances of a problem, in a unit near the typical length.
 #[derive(Debug, Clone)]
@@ -18,6 +19,8 @@ pub struct Targets {
     pub squares: Vec<Interval>,
     /// Their lengths.
     pub lengths: Vec<Interval>,
+    /// The signs that are asked for.
+    pub signs: Signs,
     /// The distance between two points, at `a * points + b`.
     table: Vec<u32>,
 }
@@ -65,6 +68,7 @@ impl Targets {
                 .iter()
                 .map(|d| wanted(&d.target) * per_unit)
                 .collect(),
+            signs: Signs::of(problem),
             table,
         }
     }

@@ -6,10 +6,12 @@ use super::cover::Marks;
 use super::krawczyk::Figure;
 use super::model::{Model, Range};
 use super::node::{MAX_SYMBOLS, Node, Sign};
-use super::place::{Place, Placed, place, squared_distance};
+use super::place::{Place, Placed, determinant, place, squared_distance};
 use super::search::Search;
 use crate::certificate::cover::{Left, Mark};
+use crate::interval::vector::{cross, dot};
 use crate::places::array;
+use crate::track::Stand;
 use serde::{Deserialize, Serialize};
 use std::any::Any;
 
@@ -28,6 +30,8 @@ pub enum Why {
     Apart,
     /// It goes on without an end: an unknown may be as large as it likes.
     Unbounded,
+    /// A figure of which a sign that is asked for cannot be told.
+    Sign,
     /// Whether a figure has a vector that must not vanish, or a length that must be positive, is not certain.
     Vanishing,
 }
@@ -56,6 +60,9 @@ pub struct Found {
     pub unfinished: u64,
     /// Parts looked at.
     pub boxes: u64,
+    /// Parts given up as a sign is wrong all over them.
+    #[serde(default)]
+    pub cut: u64,
     /// The cover, if it is wanted.
     pub marks: Marks,
 }
@@ -109,6 +116,7 @@ impl Found {
         self.undecided_share += other.undecided_share;
         self.unfinished += other.unfinished;
         self.boxes += other.boxes;
+        self.cut += other.cut;
         self.marks.append(other.marks);
     }
 }
@@ -322,6 +330,10 @@ impl<'a, const D: usize, const S: usize, const M: usize> Visit<'a, D, S, M> {
         if let Some(other) = self.wrong_pair(step) {
             return self.found.marks.put(Mark::WrongPair(step, other), S);
         }
+        if self.has_wrong_sign(step) {
+            self.found.cut += 1;
+            return;
+        }
         if self.room.equations.len() > before {
             let mut u = [Range { lo: -1.0, hi: 1.0 }; S];
             if contract(&self.room.equations, &mut self.room.rows, &mut u).is_err() {
@@ -350,6 +362,32 @@ impl<'a, const D: usize, const S: usize, const M: usize> Visit<'a, D, S, M> {
         };
         let found = self.search.pairs[step].iter().find(wrong);
         found.map(|pair| pair.0)
+    }
+
+    /// Whether of the points that stand one has a wrong sign all over the part.
+    fn has_wrong_sign(&self, step: usize) -> bool {
+        let signs = &self.search.signs[step];
+        let points = &self.room.points;
+        let sign = |x: f64| if x > 0.0 { 1 } else { -1 };
+        // Where the middle of the part is in order, the whole is not wrong.
+        let middle = |simplex: &[usize]| {
+            let side = |k: usize| {
+                array(|i| {
+                    if i < D {
+                        points[simplex[k]][i].c[0] - points[simplex[0]][i].c[0]
+                    } else {
+                        0.0
+                    }
+                })
+            };
+            sign(match D {
+                2 => cross(side(1), side(2))[2],
+                _ => dot(side(1), cross(side(2), side(3))),
+            })
+        };
+        signs.all.len() > 1
+            && signs.stand(middle) == Stand::Wrong
+            && signs.stand(|simplex| determinant(points, simplex).range().sign(1.0)) == Stand::Wrong
     }
 
     /// Goes on with a smaller part, if what the equations leave is small enough.

@@ -90,6 +90,7 @@ pub fn rigid(dimension: usize, points: std::ops::Range<usize>) -> impl Strategy<
                     .collect(),
                 objects: Vec::new(),
                 constraints: Vec::new(),
+                orientations: Vec::new(),
                 distances: edges
                     .iter()
                     .zip(changes.iter().cycle())

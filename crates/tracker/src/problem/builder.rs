@@ -5,8 +5,8 @@ use super::draft::{DraftConstraint, DraftObject, check_names, what};
 use super::error::{MAX_NAME, MAX_POINTS, Place};
 use super::joint::Drawn;
 use super::{
-    Decimal, DecimalError, Distance, HomotopyChoices, Point, Problem, ProblemError, Target, bend,
-    reference,
+    Decimal, DecimalError, Distance, HomotopyChoices, Orientation, Point, Problem, ProblemError,
+    Target, bend, reference,
 };
 use crate::constraint::{self, Owner};
 use crate::places::Each as _;
@@ -42,6 +42,7 @@ pub struct ProblemBuilder {
     lengths: Vec<DraftDistance>,
     squared_lengths: Vec<DraftDistance>,
     pub(super) constraints: Vec<DraftConstraint>,
+    orientations: Vec<DraftOrientation>,
     pub(super) drawn: Drawn,
     reference: Option<Vec<String>>,
     bend: Option<Vec<String>>,
@@ -58,6 +59,12 @@ pub(super) type Number = Result<Decimal, DecimalError>;
 struct DraftPoint {
     name: String,
     coordinates: Vec<Number>,
+}
+
+#[derive(Debug, Clone)]
+struct DraftOrientation {
+    points: Vec<String>,
+    is_positive: bool,
 }
 
 #[derive(Debug, Clone)]
@@ -112,6 +119,7 @@ impl Problem {
         let reference: Vec<&str> = choices.reference.iter().map(name).collect();
         let led = builder.clone().reference(&reference).finish();
         let mut problem = led.or_else(|_| builder.finish()).ok()?;
+        problem.orientations.clone_from(&self.orientations);
         problem.measures.clone_from(&self.measures);
         Some(problem)
     }
@@ -127,6 +135,7 @@ impl Problem {
             lengths: Vec::new(),
             squared_lengths: Vec::new(),
             constraints: Vec::new(),
+            orientations: Vec::new(),
             reference: None,
             bend: None,
             bend_coefficient: None,
@@ -184,6 +193,12 @@ impl Problem {
             }
         }
         check_distances(&self.points, &self.distances)?;
+        for (index, orientation) in self.orientations.iter().enumerate() {
+            for &point in &orientation.points {
+                in_range(Place::Orientation(index), "an orientation", point)?;
+            }
+        }
+        check_orientations(self)?;
         check_names(self)?;
         for &point in &self.homotopy.reference {
             in_range(Place::Reference, "the reference", point)?;
@@ -289,6 +304,20 @@ impl ProblemBuilder {
         self
     }
 
+    /// Asks for figures in which points, one more than there are dimensions, are this way round ([`Orientation`](super::Orientation)):
+    /// with a determinant greater than 0, or less.
+    pub fn orientation<S: AsRef<str>>(
+        mut self,
+        names: impl IntoIterator<Item = S>,
+        is_positive: bool,
+    ) -> Self {
+        self.orientations.push(DraftOrientation {
+            points: names.into_iter().map(|s| s.as_ref().to_owned()).collect(),
+            is_positive,
+        });
+        self
+    }
+
     /// Chooses the reference points. Left out, krawl chooses mutually constrained ones.
     pub fn reference<S: AsRef<str>>(mut self, names: impl IntoIterator<Item = S>) -> Self {
         self.reference = Some(names.into_iter().map(|s| s.as_ref().to_owned()).collect());
@@ -356,6 +385,22 @@ impl ProblemBuilder {
         let mut objects = self.finished_objects(&index_of)?;
         self.place_bodies(&points, &mut objects)?;
         let constraints = self.finished_constraints(&points, &objects)?;
+        let orientations = self.orientations.iter().enumerate();
+        let orientations = orientations.map(|(index, draft)| {
+            let place = Place::Orientation(index);
+            let shown: Vec<String> = draft
+                .points
+                .iter()
+                .map(|name| name.chars().take(MAX_NAME).collect())
+                .collect();
+            let what = format!("the orientation {}", shown.join("-"));
+            let found = draft.points.iter().map(|name| find(place, &what, name));
+            Ok(Orientation {
+                points: found.collect::<Result<_, ProblemError>>()?,
+                is_positive: draft.is_positive,
+            })
+        });
+        let orientations = orientations.collect::<Result<Vec<_>, ProblemError>>()?;
         let reference = match &self.reference {
             None => None,
             Some(names) => {
@@ -410,6 +455,7 @@ impl ProblemBuilder {
             objects,
             distances,
             constraints,
+            orientations,
             homotopy: HomotopyChoices {
                 reference: Vec::new(),
                 bend,
@@ -417,6 +463,7 @@ impl ProblemBuilder {
                 detour,
             },
         };
+        check_orientations(&problem)?;
         if self.loose {
             check_names(&problem)?;
             check_sketch(&problem.points, &problem.distances)?;
@@ -585,6 +632,45 @@ fn check_distances(points: &[Point], distances: &[Distance]) -> Result<(), Probl
                 name,
                 value,
             });
+        }
+    }
+    Ok(())
+}
+
+/// Each orientation is of different points, one more than there are dimensions, and no two are of the same ones.
+fn check_orientations(problem: &Problem) -> Result<(), ProblemError> {
+    let mut seen: HashMap<Vec<usize>, (usize, bool)> = HashMap::new();
+    for (index, one) in problem.orientations.iter().enumerate() {
+        let wrong = |fault: String| {
+            let name = problem.orientation_name(index);
+            Err(ProblemError::Orientation { index, name, fault })
+        };
+        let wanted = problem.dimension + 1;
+        if one.points.len() != wanted {
+            let of = match problem.dimension {
+                2 => "three points in the plane",
+                _ => "four points in space",
+            };
+            return wrong(format!("it is of {of}, and here are {}", one.points.len()));
+        }
+        let sorted = one.in_order();
+        if let Some(pair) = sorted.points.windows(2).find(|pair| pair[0] == pair[1]) {
+            let twice = &problem.points[pair[0]].name;
+            return wrong(format!(
+                "`{twice}` is named twice, and the points must be different"
+            ));
+        }
+        match seen.insert(sorted.points, (index, sorted.is_positive)) {
+            None => {}
+            Some((before, sign)) => {
+                let other = problem.orientation_name(before);
+                return wrong(match sign == sorted.is_positive {
+                    true => format!("it says the same as `{other}`: remove one of them"),
+                    false => format!(
+                        "it contradicts `{other}`, of the same points: each swap of two points changes the sign"
+                    ),
+                });
+            }
         }
     }
     Ok(())

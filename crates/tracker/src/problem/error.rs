@@ -252,6 +252,16 @@ pub enum ProblemError {
         /// What is wrong, and where.
         fault: String,
     },
+    /// A sign that cannot be asked for.
+    #[error("`{name}`: {fault}")]
+    Orientation {
+        /// Which orientation.
+        index: usize,
+        /// The orientation.
+        name: String,
+        /// What is wrong, and what to do.
+        fault: String,
+    },
     /// Not as many equations as unknowns, or not where they are needed.
     #[error("{fault}")]
     System {
@@ -307,6 +317,8 @@ pub enum Place {
     Pose,
     /// A constraint that is no distance between points, by index.
     Constraint(usize),
+    /// The sign of some points, by index.
+    Orientation(usize),
 }
 
 impl ProblemError {
@@ -353,6 +365,7 @@ impl ProblemError {
             Self::RepeatedConstraint { index, .. }
             | Self::Constraint { index, .. }
             | Self::Equation { index, .. } => Place::Constraint(*index),
+            Self::Orientation { index, .. } => Place::Orientation(*index),
             Self::ReferenceInOwnFrame(_) => Place::Reference,
         }
     }

@@ -271,6 +271,7 @@ pub(super) struct Places {
     pub(super) objects: Vec<(&'static str, Option<usize>)>,
     /// Kinds of constraints and where each constraint stands.
     pub(super) constraints_of_kinds: Vec<(&'static str, Option<usize>)>,
+    orientations: Vec<Line>,
     detour: Option<usize>,
     reference: Option<usize>,
     bend: Option<usize>,
@@ -524,7 +525,46 @@ impl<'a> Reader<'a> {
                 _ => self.kind(kind, table, objects, builder, places)?,
             };
         }
-        self.squared_distances(table, builder, places)
+        builder = self.squared_distances(table, builder, places)?;
+        self.orientations(table, builder, places)
+    }
+
+    /// The signs of figures that are asked for.
+    fn orientations(
+        &self,
+        table: &dyn TableLike,
+        mut builder: ProblemBuilder,
+        places: &mut Places,
+    ) -> Result<ProblemBuilder, FileError> {
+        let key = "constraints.orientation";
+        let Some((line, item)) = self.get(table, "orientation") else {
+            return Ok(builder);
+        };
+        let wanted = match builder.dimension {
+            2 => "[\"point\", \"point\", \"point\", \"+\" or \"-\"]",
+            _ => "[\"point\", \"point\", \"point\", \"point\", \"+\" or \"-\"]",
+        };
+        let Some(array) = item.as_array() else {
+            let wanted = format!("a list in brackets, each entry {wanted}");
+            return Err(self.wrong_kind(line, key, &wanted, item));
+        };
+        for value in array {
+            let line = self.line(value.span()).or(line);
+            let wrong = |found: &Value| self.wrong_value(line, key, wanted, found);
+            let parts = value.as_array().ok_or_else(|| wrong(value))?;
+            let names = parts
+                .iter()
+                .map(|part| part.as_str().ok_or_else(|| wrong(part)));
+            let mut names = names.collect::<Result<Vec<&str>, FileError>>()?;
+            let is_positive = match names.pop() {
+                Some("+") => true,
+                Some("-") => false,
+                _ => return Err(wrong(value)),
+            };
+            places.orientations.push(line);
+            builder = builder.orientation(names, is_positive);
+        }
+        Ok(builder)
     }
 
     fn squared_distances(
@@ -921,6 +961,7 @@ impl<'a> Reader<'a> {
                 let is_constraint = |key: &str| {
                     ["distances", "squared_distances"].contains(&key)
                         || KINDS.iter().any(|kind| kind.key() == key)
+                        || key == "orientation"
                 };
                 return Err(self.fail(
                     self.line(table.key(name).and_then(Key::span)),
@@ -1040,6 +1081,10 @@ impl<'a> Reader<'a> {
                 let within = if is_whole { "" } else { "constraints." };
                 let (key, line) = named(&places.constraints_of_kinds, i, within);
                 return self.fail(line, FileFault::Problem { key, error });
+            }
+            Place::Orientation(i) => {
+                let line = places.orientations.get(i).copied().flatten();
+                ("constraints.orientation: ", line)
             }
             Place::Detour => ("homotopy.detour: ", places.detour),
             Place::Whole => ("", places.points_table),

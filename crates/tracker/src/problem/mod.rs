@@ -24,7 +24,7 @@ pub use crate::decimal::{Decimal, DecimalError};
 pub use crate::statement::most_along;
 pub use crate::statement::{
     AXES, Atom, Constraint, DEPENDS, Distance, Formula, HomotopyChoices, Item, JointSort, Object,
-    Point, Pose, Problem, Shape, Target, Terms, Tolerances, free_coordinates,
+    Orientation, Point, Pose, Problem, Shape, Target, Terms, Tolerances, free_coordinates,
 };
 #[doc(hidden)]
 pub use crate::statement::{counted, list};

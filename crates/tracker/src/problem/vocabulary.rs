@@ -232,7 +232,7 @@ impl Reader<'_> {
     /// The keys that may be under `[constraints]`.
     pub(super) fn constraint_keys() -> Vec<&'static str> {
         let mut keys: Vec<&str> = KINDS.iter().map(|kind| kind.key()).collect();
-        keys.push("squared_distances");
+        keys.extend(["squared_distances", "orientation"]);
         keys
     }
 }

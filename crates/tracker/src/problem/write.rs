@@ -59,6 +59,12 @@ impl Problem {
         for kind in KINDS.iter().filter(|kind| kind.key() != "distances") {
             write_list(out, kind.key(), self.entries(kind.key()))?;
         }
+        let orientations = self.orientations.iter().map(|one| {
+            let points = one.points.iter().map(|&p| name(p));
+            let parts: Vec<String> = points.chain([quoted(one.sign())]).collect();
+            format!("[{}]", parts.join(", "))
+        });
+        write_list(out, "orientation", orientations.collect())?;
         let homotopy = &self.homotopy;
         let reference = homotopy.reference.iter().map(|&p| name(p));
         writeln!(out, "\n[homotopy]")?;

@@ -10,6 +10,7 @@ mod formula;
 mod joint;
 mod names;
 mod object;
+mod orientation;
 
 pub use formula::{Atom, Formula, Terms};
 pub use joint::{JointSort, Pose};
@@ -18,6 +19,7 @@ pub use names::nearest;
 pub use names::{counted, list};
 pub use object::most_along;
 pub use object::{AXES, Constraint, Item, Object, Shape};
+pub use orientation::Orientation;
 
 /// A geometric problem with its sketch: points, distances between them (RR 8705, section 2.1), and
 /// what else there may be: lines, planes, circles, bodies, and constraints on them.
@@ -38,6 +40,8 @@ pub struct Problem {
     pub distances: Vec<Distance>,
     /// All other constraints, in the order of [`crate::constraint::KINDS`].
     pub constraints: Vec<Constraint>,
+    /// The signs of figures that are asked for.
+    pub orientations: Vec<Orientation>,
     /// How the sketch is led to the target dimensions.
     pub homotopy: HomotopyChoices,
     /// What dimensions and constraints are called in the program that they come from, by index:

@@ -108,6 +108,7 @@ fn account(homotopy: &Homotopy, space: Space, run: ArcRun, clock: Instant) -> Fi
     First {
         turns_at,
         outcome: Outcome {
+            signed: None,
             mode: Mode::Certified,
             space,
             status: Status::Stopped(reason),

@@ -17,6 +17,7 @@ mod options;
 mod outcome;
 #[doc(hidden)]
 pub mod reduced;
+mod signs;
 mod stop;
 mod turns;
 mod witness;
@@ -31,6 +32,7 @@ pub use ends::{Away, EndKind, PathEnd};
 pub use first::{First, first};
 pub use options::{Options, Preset};
 pub use outcome::{Driving, Mode, Outcome, Place, Solution, Space, Status};
+pub use signs::{Signed, Signs, Stand};
 pub use stop::{Stop, StopKind};
 pub use witness::{TubeSeen, Witness};
 

@@ -1,5 +1,6 @@
 //! What a run reports.
 
+use super::Signed;
 use super::{PathEnd, Stop};
 use crate::interval::Interval;
 use crate::places::Each as _;
@@ -192,6 +193,8 @@ pub struct Outcome {
     pub status: Status,
     /// The solutions, in the order in which the path meets them.
     pub solutions: Vec<Solution>,
+    /// What came of them by the signs that the problem asks for, once [`Signs::test`](super::Signs::test) has taken the others out.
+    pub signed: Option<Signed>,
     /// Accepted steps (certified: tubes).
     pub steps: usize,
     /// Rejected steps.

@@ -66,6 +66,11 @@ impl CoverVerdict {
     fn about(problem: &str, solutions: usize) -> Result<Self, CoverError> {
         let problem = Problem::parse(problem, "the cover's problem")
             .map_err(|error| CoverError(error.to_string()))?;
+        if !problem.orientations.is_empty() {
+            return Err(CoverError(
+                "its problem asks for signs, of which covers say nothing".to_owned(),
+            ));
+        }
         Ok(CoverVerdict {
             problem,
             solutions: Some(solutions as u64),

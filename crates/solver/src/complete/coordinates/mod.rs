@@ -24,6 +24,7 @@ mod far;
 mod independent;
 mod kept;
 mod newton;
+mod oriented;
 mod piece;
 mod poses;
 mod search;
@@ -50,10 +51,11 @@ use crate::problem::Problem;
 use crate::system::told::{self, Told};
 use crate::system::{GaugeError, Homotopy, typical_length};
 use crate::track::certified::{Relation, prove_figure};
-use crate::track::{FigureBox, Solution};
+use crate::track::{FigureBox, Signed, Signs, Solution};
 use contract::contract;
 use independent::Parts;
 use kept::Kept;
+use oriented::Oriented;
 use poses::Poses;
 pub(super) use search::leave;
 use search::{Block, Found, Run, ranges};
@@ -153,6 +155,15 @@ fn searched(
     if reason.is_some() {
         return Ok(result);
     }
+    if !problem.orientations.is_empty() {
+        let wanted = Signs::of(problem);
+        system.oriented = Some(Oriented::new(
+            wanted,
+            &system,
+            homotopy,
+            problem.points.len(),
+        ));
+    }
     let m = system.unknowns;
     let mut x = vec![Interval::ENTIRE; m + 1];
     x[m] = ZERO;
@@ -187,7 +198,10 @@ fn searched(
 
     if space.is_ok() {
         let done = run.done.load(Ordering::Relaxed);
-        figures.parts = figures.fall_apart(&x, &pivots);
+        // Signs are of the figure as a whole.
+        if problem.orientations.is_empty() {
+            figures.parts = figures.fall_apart(&x, &pivots);
+        }
         match &figures.parts {
             Some(parts) => figures.found.clone_from(&parts.listed),
             None => {
@@ -205,6 +219,7 @@ fn searched(
         }
     }
     result.solutions = solutions(homotopy, &figures.found);
+    result.signed = Signed::cut(figures.cut);
     let bodies = figures.bodies.iter().flatten();
     result.turned = bodies
         .map(|body| problem.objects[body.object].name.clone())
@@ -326,6 +341,8 @@ struct Figures<'a> {
     /// Zeros in which a vector vanishes that must not, exactly.
     others: Vec<Vec<f64>>,
     undecided: Vec<Part>,
+    /// Parts given up as a sign is wrong all over them.
+    cut: u64,
     /// Where the equations fall apart, what comes of that.
     parts: Option<Parts>,
     /// The largest construction by which a block was searched.
@@ -383,6 +400,7 @@ impl<'a> Figures<'a> {
             found: Vec::new(),
             others: Vec::new(),
             undecided: Vec::new(),
+            cut: 0,
             parts: None,
             constructed: None,
         }
@@ -398,6 +416,12 @@ impl<'a> Figures<'a> {
             // Thousands of figures are put together of few parts.
             leave(&mut self.undecided, Why::Unfinished, 1, share);
             return;
+        }
+        let is_wrong = |signs: &Oriented| signs.is_wrong(&state.x);
+        if b > 0 && self.system.oriented.as_ref().is_some_and(is_wrong) {
+            self.cut += 1;
+            let after = self.blocks[b..].iter().map(|block| self.weight(block));
+            return self.run.add_done(share * after.sum::<f64>());
         }
         if b == self.blocks.len() {
             self.finish(&state.x, share);
@@ -524,6 +548,7 @@ impl<'a> Figures<'a> {
             None => Found::missing(1.0),
         };
         self.constructed = self.constructed.max(found.constructed);
+        self.cut += found.cut;
         let found = Rc::new(found);
         self.known.insert(key, Rc::clone(&found));
         found

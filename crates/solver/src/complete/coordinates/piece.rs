@@ -103,6 +103,15 @@ impl<'s, 'a> Piece<'s, 'a> {
         named: Option<usize>,
         others: &mut Vec<Node>,
     ) {
+        if self
+            .block
+            .oriented
+            .as_ref()
+            .is_some_and(|signs| signs.is_wrong(&x))
+        {
+            self.tally.found.cut += 1;
+            return self.tally.done(share);
+        }
         let least = self.tally.least(self.curve.is_some());
         let (which, widest) = match self.block.widest(&x) {
             Choice::Halve(u, widest) => (u, widest),

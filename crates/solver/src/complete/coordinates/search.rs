@@ -9,6 +9,7 @@ use super::bound::bounds;
 use super::construction::Order;
 use super::kept::{Kept, digest};
 use super::newton::{KNOWN, Square, Zero};
+use super::oriented::Oriented;
 use super::piece::{How, Node, Piece};
 use super::sums::sums;
 use super::system::{Row, System, relative_width, volume};
@@ -45,6 +46,9 @@ pub struct Found {
     pub undecided: Vec<Part>,
     /// Parts looked at.
     pub boxes: u64,
+    /// Parts given up as a sign is wrong all over them.
+    #[serde(default)]
+    pub cut: u64,
     /// Whether it was ended before all was looked at.
     pub is_broken_off: bool,
     /// For each zero the piece it was found in, if the search was cut into pieces.
@@ -92,6 +96,8 @@ pub struct Block<'a> {
     pub positive: Vec<usize>,
     /// The vectors that vanish in no figure and of which all is known in the block, as the system has them.
     pub nonzero: Vec<&'a [[usize; 2]]>,
+    /// The signs that are asked for of points of which all is known in the block.
+    pub oriented: Option<Oriented>,
     /// The numbers of its equations in the system.
     pub equations: Vec<usize>,
     /// The equations that are on a side: the number of each, and that of its side.
@@ -130,10 +136,13 @@ impl<'a> Block<'a> {
             let mut entries = vector.iter().flatten();
             entries.all(|&e| is_free[e] || is_known(e))
         });
+        let oriented = system.oriented.as_ref();
+        let oriented = oriented.map(|signs| signs.of(|e| is_free[e] || is_known(e)));
         let own_rows: Vec<&Row> = equations.iter().map(|&e| &system.rows[e]).collect();
         let rows = own_rows.iter().copied().chain(follow).collect();
         Block {
             nonzero: nonzero.map(Vec::as_slice).collect(),
+            oriented,
             square: Square {
                 rows: own_rows,
                 own: own.to_vec(),
@@ -196,6 +205,7 @@ impl<'a> Block<'a> {
         let mut whole = Found {
             undecided: first.undecided,
             boxes: first.boxes,
+            cut: first.cut,
             is_broken_off: first.is_broken_off,
             constructed: how.1.map(|order| Constructed {
                 unknowns: self.square.own.len(),
@@ -208,6 +218,7 @@ impl<'a> Block<'a> {
                 leave(&mut whole.undecided, part.why, part.count, part.share);
             }
             whole.boxes += one.boxes;
+            whole.cut += one.cut;
             whole.is_broken_off |= one.is_broken_off;
         }
         (whole.zeros, whole.pieces) = all.in_order();

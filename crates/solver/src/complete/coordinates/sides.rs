@@ -125,6 +125,7 @@ impl Sides<'_, '_> {
         };
         let here = block.search_all(&about, more, x.clone(), &own);
         found.boxes += here.boxes;
+        found.cut += here.cut;
         found.is_broken_off |= here.is_broken_off;
         found.constructed = found.constructed.max(here.constructed);
         for part in here.undecided {
@@ -233,6 +234,7 @@ fn on_side<'b, 'a: 'b>(
         zero: block.zero,
         positive: block.positive.clone(),
         nonzero: block.nonzero.clone(),
+        oriented: block.oriented.clone(),
         equations: block.equations.clone(),
         sides: block.sides.iter().copied().chain([side]).collect(),
     }

@@ -1,5 +1,6 @@
 //! The equations of a problem with its dimensions, as the search over coordinates sees them.
 
+use super::oriented::Oriented;
 use crate::certificate::cover::coordinates::Shared;
 use crate::equations;
 use crate::interval::{Interval, ZERO, point};
@@ -38,6 +39,8 @@ pub struct System {
     pub positive: Vec<usize>,
     /// The vectors that vanish in no figure: the entries of which their components are the differences.
     pub nonzero: Vec<Vec<[usize; 2]>>,
+    /// The signs that are asked for, if any are.
+    pub oriented: Option<Oriented>,
 }
 
 impl Row {
@@ -139,6 +142,7 @@ impl System {
             rows: rows.collect(),
             positive: homotopy.positive_unknowns(),
             nonzero: homotopy.nonzero_vectors(),
+            oriented: None,
         };
         let names = system.names();
         for ends in system.nonzero.iter_mut().flatten() {

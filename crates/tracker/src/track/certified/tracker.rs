@@ -124,6 +124,7 @@ pub fn track<const N: usize, T: Test<N>>(
     }
     let (plan_changes, driving) = tracker.test.plans();
     Outcome {
+        signed: None,
         mode: Mode::Certified,
         space: T::SPACE,
         status,

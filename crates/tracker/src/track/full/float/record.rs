@@ -144,6 +144,7 @@ impl<Y: Preconditioner> Record<Y> {
             }
         }
         Outcome {
+            signed: None,
             mode: Mode::Float,
             space: Space::Full,
             status,

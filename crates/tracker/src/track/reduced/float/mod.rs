@@ -257,6 +257,7 @@ impl<'a> Tracker<'a> {
             })
             .collect();
         Outcome {
+            signed: None,
             mode: Mode::Float,
             space: Space::Reduced,
             status,

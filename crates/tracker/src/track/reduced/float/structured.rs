@@ -28,6 +28,7 @@ pub fn track(homotopy: &Homotopy, options: &Options, control: &mut Control) -> O
     let (status, record) = follow_both_ways::<Structured>(homotopy, given, options, control);
     let outcome = record.into_outcome(homotopy, status, clock.elapsed().as_secs_f64());
     Outcome {
+        signed: None,
         space: Space::Reduced,
         plan_changes: plans.changes,
         driving: Driving {

@@ -1,0 +1,75 @@
+//! The figures of a search that have the signs that the problem asks for.
+
+use super::outcome::are_apart;
+use super::{Complete, Part, Status, Why};
+use crate::constraint::Symmetry;
+use crate::order::InOrder;
+use crate::problem::Problem;
+use crate::track::{Signed, Signs};
+
+impl Complete {
+    /// Takes the figures out that have a wrong sign, and those of which that cannot be told, which stay undecided; mirror images stand in the place of
+    /// figures that have all signs reversed. Nothing, where the parts of the problem were put together by their signs.
+    pub(super) fn choose_signed(&mut self, problem: &Problem) {
+        let signs = Signs {
+            all: problem.orientations.clone(),
+            mirrors: self.symmetry == Symmetry::Isometries,
+        };
+        if signs.mirrors {
+            self.symmetry = Symmetry::Motions;
+        }
+        if self.signed.is_some_and(|signed| signed.asked > 0) {
+            return;
+        }
+        let listed = self.solutions.len() as u64;
+        let mut signed = Signed {
+            asked: signs.all.len(),
+            found: self.count.unwrap_or(u64::MAX),
+            ..self.signed.unwrap_or_default()
+        };
+        let places = signs.choose(&mut self.solutions, problem.dimension, &mut signed);
+        if let Some(tested) = &mut self.tested {
+            let mut places = places.iter();
+            tested
+                .figures
+                .retain(|_| places.next().is_none_or(Option::is_some));
+        }
+        // Those that are not listed were not looked at.
+        signed.undecided += signed.found.saturating_sub(listed);
+        self.count = Some(self.solutions.len() as u64);
+        for (class, solution) in self.solutions.iter_mut().enumerate() {
+            solution.class = class;
+        }
+        self.signed = Some(signed);
+        if signed.undecided > 0 {
+            self.leave(Why::Sign, signed.undecided);
+        }
+        let figures = &self.solutions;
+        let is_apart = |k: usize| figures[..k].iter().all(|one| are_apart(one, &figures[k]));
+        if signed.mirrored > 0 && !(0..figures.len()).all(is_apart) {
+            self.leave(Why::Apart, 1);
+            self.reason =
+                Some("two solutions are too close to each other to be told apart".to_owned());
+        }
+        if self.status == Status::Complete
+            && self.solutions.is_empty()
+            && signed.cut + signed.wrong > 0
+        {
+            self.reason =
+                Some("no figure that meets the constraints has the signs asked for".to_owned());
+        }
+    }
+
+    /// Leaves figures undecided.
+    pub(super) fn leave(&mut self, why: Why, count: u64) {
+        if self.status == Status::Complete {
+            self.status = Status::Partial;
+        }
+        self.undecided.push(Part {
+            why,
+            count,
+            share: 0.0,
+        });
+        self.undecided.order_by_key(|part| part.why);
+    }
+}
