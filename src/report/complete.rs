@@ -423,18 +423,19 @@ fn span(seconds: f64) -> String {
 
 /// What was found, in words that claim no more than was proved.
 fn verdict(problem: &Problem, result: &Complete) -> String {
-    let signed = result.signed.map_or_else(String::new, |signed| {
-        let cut = counted(signed.cut as usize, "part");
-        let wrong = counted(signed.wrong as usize, "figure");
-        let but = match signed.undecided {
-            0 => String::new(),
-            n => format!(" Of {} a sign cannot be told: these are not counted either.", counted(n as usize, "figure")),
-        };
-        format!(
-            " Figures without {} are not counted: {cut} of the search and {wrong} were struck out for that.{but}",
-            signs_in_words(signed.asked)
-        )
-    });
+    let signed = result.signed.unwrap_or_default();
+    let mut struck = match (signed.cut, signed.wrong) {
+        (0, 0) => String::new(),
+        (cut, wrong) => format!(
+            " With other signs {} of the search and {} were struck out.",
+            counted(cut as usize, "part"),
+            counted(wrong as usize, "figure")
+        ),
+    };
+    if signed.undecided > 0 {
+        let figures = counted(signed.undecided as usize, "figure");
+        struck += &format!(" Of {figures} a sign cannot be told: these are not counted.");
+    }
     let names: Vec<String> = result
         .both_ways
         .iter()
@@ -451,7 +452,7 @@ fn verdict(problem: &Problem, result: &Complete) -> String {
             names.join(", ")
         );
     }
-    words + &signed + &supposed(problem)
+    words + &struck + &supposed(problem)
 }
 
 /// The same but for what is said of sides and lengths.
@@ -470,6 +471,14 @@ fn without_sides(problem: &Problem, result: &Complete) -> String {
                 tested.used, tested.all, tested.what
             ),
         ),
+    };
+    let with = match &have[..] {
+        "" => " with",
+        _ => " and",
+    };
+    let have = match result.signed {
+        None => have,
+        Some(signed) => format!("{have}{with} {}", signs_in_words(signed.asked)),
     };
     let tested = result
         .tested

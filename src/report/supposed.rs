@@ -40,10 +40,7 @@ pub fn signs_of_figure(problem: &Problem, points: &[[Interval; 3]]) -> String {
             let others: Vec<String> = others
                 .map(|k| format!("`{}`", problem.orientation_name(k)))
                 .collect();
-            format!(
-                "the figure has not, or is not proved to have, {}",
-                list(&others, LISTED)
-            )
+            format!("the figure is not proved to have {}", list(&others, LISTED))
         }
     };
     format!("signs               {words}\n")

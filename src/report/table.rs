@@ -327,7 +327,7 @@ pub fn signed_in_words(outcome: &Outcome) -> String {
     let have = if count == 1 { "has" } else { "have" };
     let mut parts = vec![format!("{count} {have} {}", signs_in_words(signed.asked))];
     if signed.mirrored > 0 {
-        parts[0] += ", as its mirror image is listed where that has them";
+        parts[0] += ", where its mirror image has them, that is listed";
     }
     if signed.wrong > 0 {
         let are = if signed.wrong == 1 {

@@ -236,7 +236,7 @@ impl<'a> Told<'a> {
         Signs::of(problem).test(&mut outcome, problem.dimension);
         let signed = outcome.signed.unwrap_or_default();
         let missed = tested.map_or(0, |tested| tested.missed as u64);
-        let is_missed = signed.wrong + signed.undecided + missed > 0;
+        let is_missed = signed.wrong + signed.undecided + signed.mirrored as u64 + missed > 0;
         // Signs may be of points of several blocks.
         let is_plain = tested.is_none() && problem.orientations.is_empty();
         let can_be_cut =
@@ -304,10 +304,12 @@ impl<'a> Told<'a> {
                 (Some(text), _) => text + &part,
                 // It is there, and no figure of the problem.
                 (None, true) if is_missed => {
-                    let struck =
-                        signed_in_words(&outcome).replace(" Of these", "Of the figures there");
+                    let struck = signed_in_words(&outcome).replace(
+                        " Of these",
+                        "Of all figures on the path that were looked at",
+                    );
                     format!(
-                        "{}: No solution without a fold. {part}{struck}\n",
+                        "{}: No solution is reached without a fold. {part}{struck}\n",
                         problem.name
                     )
                 }

@@ -117,6 +117,8 @@ impl Signs {
                     if stand == Stand::Mirrored {
                         signed.mirrored += 1;
                         mirror(&mut solution, dimension);
+                        // The path comes to the figure, not to its mirror image.
+                        solution.place = None;
                     }
                     places.push(Some(kept.len()));
                     kept.push(solution);
