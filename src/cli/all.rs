@@ -315,7 +315,7 @@ fn check(
         false => format!(
             "\nThe certificate in {name} was checked in {seconds:.2} s: it proves this again{}.\n",
             match result.tested {
-                _ if result.signed.is_some() => ", of figures with any signs",
+                _ if result.signed.is_some() => ", but of figures with any signs",
                 Some(_) => ", of the constraints used",
                 None => "",
             }

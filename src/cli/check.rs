@@ -448,6 +448,13 @@ fn understood(problem: &Problem) -> Vec<(&'static str, String)> {
         let meaning = kind.meaning();
         rows.push(("constraint", format!("{name} ({read}{meaning})")));
     }
+    for index in 0..problem.orientations.len() {
+        let name = problem.orientation_name(index);
+        rows.push((
+            "sign",
+            format!("{name} (which way round these points are in the figures wanted)"),
+        ));
+    }
     rows
 }
 

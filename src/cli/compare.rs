@@ -73,21 +73,11 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     // Whatever is wrong is said before anything runs.
     let subjects = arguments.files.iter().map(|file| read(file));
     let subjects = subjects.collect::<Result<Vec<Subject>, String>>()?;
-    let destination = |path: &Option<PathBuf>| path.as_deref().map(Destination::new).transpose();
-    let (json, csv) = (destination(&arguments.json)?, destination(&arguments.csv)?);
+    let json = output::beside(&arguments.files, arguments.json.as_deref())?;
+    let csv = output::beside(&arguments.files, arguments.csv.as_deref())?;
     let standard = Some(Destination::StandardOutput);
     if json == standard && csv == standard {
         return Err("only one of `--json` and `--csv` can go to standard output".to_owned());
-    }
-    for results in [&arguments.json, &arguments.csv].into_iter().flatten() {
-        for file in &arguments.files {
-            if output::is_same_file(results, file) {
-                return Err(format!(
-                    "{}: is a problem itself; name another file for the results",
-                    results.display()
-                ));
-            }
-        }
     }
     let folder = arguments.output.as_deref();
     if let Some(folder) = folder {
@@ -107,6 +97,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let count = subjects.len();
     for (k, (subject, file)) in subjects.into_iter().zip(&arguments.files).enumerate() {
         let which = output::which_of((k, count), file);
+        output::say_if_signs_are_not_looked_at(&subject.problem);
         let line = ProgressLine::new(!arguments.quiet, &which);
         let mut show = |now: Progress| line.show(now);
         let mut hooks = Hooks {

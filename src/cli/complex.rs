@@ -78,23 +78,9 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         lowered.cite(bound.into());
     }
     let lowered = lowered;
-    for given in [Some(&arguments.file), arguments.template.as_ref()]
-        .into_iter()
-        .flatten()
-    {
-        let results = [&arguments.json, &arguments.cert];
-        if results
-            .into_iter()
-            .flatten()
-            .any(|results| output::is_same_file(results, given))
-        {
-            return Err(format!(
-                "{}: is read; name another file for the results",
-                given.display()
-            ));
-        }
-    }
-    let json = output::beside([], arguments.json.as_deref())?;
+    let given = || [&arguments.file].into_iter().chain(&arguments.template);
+    let json = output::beside(given(), arguments.json.as_deref())?;
+    output::refuse_read(given(), arguments.cert.as_deref())?;
     let cert = arguments.cert.as_deref().map(Beside::new).transpose()?;
     let line = ProgressLine::new(!arguments.quiet, "");
     let tell = |done: usize, all: usize| {

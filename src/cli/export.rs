@@ -61,9 +61,7 @@ pub fn run(arguments: &Arguments) -> u8 {
 fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let file = arguments.file.display();
     let problem = input::of_equations(&arguments.file)?;
-    if output::is_same_file(&arguments.out, &arguments.file) {
-        return Err(format!("{file}: is the problem itself; name another file"));
-    }
+    output::refuse_read([&arguments.file], Some(&arguments.out))?;
     let to = match arguments.to {
         Program::Phcpack => Export::PhcPack,
         Program::Macaulay2 => Export::Macaulay2,

@@ -65,7 +65,7 @@ pub fn refuse_read<'f>(
     match results.filter(|results| read.any(|file| is_same_file(results, file))) {
         None => Ok(()),
         Some(results) => Err(format!(
-            "{}: is the problem itself; name another file for the results",
+            "{}: is read; name another file for the results",
             results.display()
         )),
     }

@@ -84,15 +84,10 @@ impl Pictures {
     /// of the files is that are read.
     pub fn places<'f>(
         &self,
-        read: impl IntoIterator<Item = &'f PathBuf>,
+        read: impl IntoIterator<Item = &'f PathBuf> + Clone,
     ) -> Result<Places<'_>, String> {
-        for file in read {
-            if let Some(same) = self.files().find(|path| output::is_same_file(path, file)) {
-                return Err(format!(
-                    "{}: is read; name another file for the results",
-                    same.display()
-                ));
-            }
+        for path in self.files() {
+            output::refuse_read(read.clone(), Some(path))?;
         }
         let all = self.all().into_iter();
         let all = all.map(|(kind, path)| Ok((kind, Destination::new(path)?, path.as_path())));

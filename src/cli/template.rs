@@ -155,11 +155,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let from = arguments.from.as_deref().map(TemplateText::read);
     let from = from.transpose()?;
     let (problem, lowered) = read(&arguments.file, from.as_ref())?;
-    if output::is_same_file(&arguments.out, &arguments.file) {
-        return Err(format!(
-            "{file}: is the problem itself; name another file for the template"
-        ));
-    }
+    output::refuse_read([&arguments.file], Some(&arguments.out))?;
     let out = Destination::new(&arguments.out)?;
     let line = ProgressLine::new(!arguments.quiet, "");
     let begin = Instant::now();

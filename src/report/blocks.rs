@@ -59,9 +59,6 @@ impl BlockRuns<'_> {
             return "Combined: the blocks do not hang together.".to_owned();
         };
         let up_to = match combined.without_mirror_images() {
-            _ if combined.is_signed() => {
-                "up to motions, with the signs asked for of points of one block,"
-            }
             true => "up to motions and reflections",
             false => "up to motions, mirror images among them",
         };

@@ -265,6 +265,14 @@ fn write_table(out: &mut String, problem: &Problem, result: &Complete) -> std::f
     for part in &result.undecided {
         let parts = counted(part.count as usize, "part");
         let share = 100.0 * part.share;
+        if part.why == Why::Sign {
+            let figures = counted(part.count as usize, "figure");
+            writeln!(
+                out,
+                "  undecided: {figures} of which a sign that is asked for cannot be told"
+            )?;
+            continue;
+        }
         writeln!(
             out,
             "  undecided: {parts} ({} % of {}): {}",

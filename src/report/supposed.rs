@@ -33,14 +33,23 @@ pub fn signs_of_figure(problem: &Problem, points: &[[Interval; 3]]) -> String {
                 .to_owned()
         }
         _ => {
-            let is_right = |one: &Orientation| {
-                orientation(points, &one.points) == if one.is_positive { 1 } else { -1 }
+            let named = |sign: i8| {
+                let is_so = |one: &Orientation| {
+                    orientation(points, &one.points) * if one.is_positive { 1 } else { -1 } == sign
+                };
+                let of = (0..signs.all.len()).filter(|&k| is_so(&signs.all[k]));
+                let of = of.map(|k| format!("`{}`", problem.orientation_name(k)));
+                of.collect::<Vec<String>>()
             };
-            let others = (0..signs.all.len()).filter(|&k| !is_right(&signs.all[k]));
-            let others: Vec<String> = others
-                .map(|k| format!("`{}`", problem.orientation_name(k)))
-                .collect();
-            format!("the figure is not proved to have {}", list(&others, LISTED))
+            match [named(-1), named(0)] {
+                [wrong, _] if !wrong.is_empty() => {
+                    format!("the figure has not {}, proved", list(&wrong, LISTED))
+                }
+                [_, untold] => format!(
+                    "whether the figure has {} cannot be told",
+                    list(&untold, LISTED)
+                ),
+            }
         }
     };
     format!("signs               {words}\n")

@@ -204,7 +204,11 @@ pub(super) fn verdict(problem: &Problem, outcome: &Outcome, tested: Option<&Test
         (_, c, _) => format!(" Up to congruence and reflection they are {c}."),
     };
     let different = different + &degenerate(outcome);
-    let signed = signed_in_words(outcome);
+    let these = match tested {
+        None => "these",
+        Some(_) => "those that are not struck out",
+    };
+    let signed = signed_in_words(these, outcome);
     if let Some(tested) = tested {
         let path = format!(
             "with {} the path through the sketch has",
@@ -318,8 +322,8 @@ pub fn part_in_words(tested: &Tested) -> String {
     format!("Followed with {used}, to {figures}.{others}")
 }
 
-/// How the figures of a path stand to the signs that are asked for, as a sentence behind another one.
-pub fn signed_in_words(outcome: &Outcome) -> String {
+/// How figures of a path, called `these`, stand to the signs that are asked for, as a sentence behind another one.
+pub fn signed_in_words(these: &str, outcome: &Outcome) -> String {
     let Some(signed) = outcome.signed else {
         return String::new();
     };
@@ -327,7 +331,7 @@ pub fn signed_in_words(outcome: &Outcome) -> String {
     let have = if count == 1 { "has" } else { "have" };
     let mut parts = vec![format!("{count} {have} {}", signs_in_words(signed.asked))];
     if signed.mirrored > 0 {
-        parts[0] += ", where its mirror image has them, that is listed";
+        parts[0] += ", or their mirror images have, which are listed then";
     }
     if signed.wrong > 0 {
         let are = if signed.wrong == 1 {
@@ -352,7 +356,7 @@ pub fn signed_in_words(outcome: &Outcome) -> String {
         };
         parts.push(format!("{again} {are} of them and the same figure then"));
     }
-    format!(" Of these {}.", parts.join("; "))
+    format!(" Of {these} {}.", parts.join("; "))
 }
 
 /// What was found where figures of the path were struck out, and how the figures stand to what they were struck out for.

@@ -117,6 +117,27 @@ fn the_program_ends_there() {
     assert_eq!(json["solutions"].as_array().unwrap().len(), 1);
     assert_eq!(json["solutions"][0]["folds"], 0);
     assert_eq!(json["solutions"][0]["signs"], serde_json::json!([1]));
+    // The sketch moves to a figure with its own sign, and never to the mirror image.
+    let signed = |sign: &str| {
+        let asked = format!("orientation = [[\"a\", \"b\", \"c\", \"{sign}\"]]\n[homotopy]");
+        let text = triangle.replace(" 9]", " 7]").replace("[homotopy]", &asked);
+        std::fs::write(file.path(), text).unwrap();
+        [run(&["solve", &path, "--first"]), run(&["solve", &path])]
+    };
+    let [(code, first), (_, all)] = signed("+");
+    assert!(
+        code == Some(0) && first.contains("First, proved"),
+        "{first}"
+    );
+    assert!(all.contains("reached without a fold"), "{all}");
+    let [(code, first), (whole, all)] = signed("-");
+    assert_eq!((code, whole), (Some(3), Some(0)), "{first}{all}");
+    assert!(
+        first.contains("No solution is reached without a fold"),
+        "{first}"
+    );
+    assert!(all.contains("Solution 1"), "{all}");
+    assert!(!(first + &all).contains("reached without a fold,"), "{all}");
     // Floats know no folds, and say what does.
     let (code, text) = run(&["solve", "problems/k33.toml", "--first", "--mode", "float"]);
     assert_eq!(code, Some(1), "{text}");

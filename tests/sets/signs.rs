@@ -164,7 +164,7 @@ fn signs_of_parts_and_across() {
     agree(&problem, [&[0, 1, 4], &[1, 2, 4]]);
 }
 
-/// A chiral centre: four different bonds and all pairs but one are given, so that the last has two places.
+/// A chiral centre: all distances of four points are given, so that there are two figures, mirror images of each other.
 #[test]
 fn a_chiral_centre_has_one_figure_of_each_hand() {
     let centre = r#"
@@ -245,7 +245,8 @@ fn a_cover_is_of_all_signs() {
     assert_eq!((result.count, result.status), (Some(8), Status::Complete));
 }
 
-/// A flat figure has no sign: exactly flat as numbers are exact, and nearly so as far as intervals tell.
+/// A flat figure has no sign: neither one that has its distances exactly, nor one that has them within their digits, alone or
+/// as a part of a larger figure.
 #[test]
 fn a_flat_figure_has_no_sign() {
     let flat = r#"
@@ -260,6 +261,54 @@ fn a_flat_figure_has_no_sign() {
     "#;
     let result = found(&Problem::parse(flat, "flat.toml").unwrap());
     assert_eq!((result.count, result.signed.unwrap().wrong), (Some(0), 1));
+    // To two digits a-c is 2.4, and 2.44 is what the others make it.
+    let short = flat.replace("1.5]", "1.56]").replace("2.5]]", "2.4]]");
+    let part = short
+        .replace("c = [2, 1]", "c = [2, 1]\n        d = [3, 3]")
+        .replace("2.4]]", "2.4], [\"b\", \"d\", 3], [\"c\", \"d\", 2]]");
+    for nearly in [short, part] {
+        let options = Options {
+            within_digits: true,
+            ..Options::default()
+        };
+        let count = |text: &str| {
+            let result = all(&Problem::parse(text, "nearly.toml").unwrap(), &options).unwrap();
+            assert_eq!(result.status, Status::Complete);
+            result.count
+        };
+        let unsigned = nearly.replace("orientation", "# orientation");
+        assert!(count(&unsigned) > Some(0));
+        assert_eq!(count(&nearly), Some(0));
+    }
+}
+
+/// With more constraints than unknowns what was left out is looked at in figures that have the signs alone.
+#[test]
+fn signs_come_before_what_was_left_out() {
+    let text = r#"
+        dimension = 2
+        [points]
+        a = [0, 0]
+        b = [4, 0]
+        c = [4, 3]
+        [constraints]
+        fixed = ["a", "b"]
+        distances = [["a", "c", 5], ["b", "c", 3]]
+        dx = [["a", "c", 4]]
+        orientation = [["a", "b", "c", "-"]]
+    "#;
+    let asked = Problem::parse_loosely(text, "over.toml").unwrap();
+    let of = |problem: &Problem| {
+        let result = found(problem);
+        let tested = result.tested.clone().unwrap();
+        assert_eq!(tested.figures.len(), result.solutions.len());
+        (tested.found, tested.met, result.count, result)
+    };
+    let whole = of(&asked.unsigned());
+    assert_eq!((whole.0, whole.1, whole.2), (Some(2), 2, Some(2)));
+    let one = of(&asked);
+    assert_eq!((one.0, one.1, one.2), (Some(1), 1, Some(1)));
+    assert_eq!(sign(&middles(&one.3)[0], &[0, 1, 2]), -1.0);
 }
 
 #[test]

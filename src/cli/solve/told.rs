@@ -236,7 +236,7 @@ impl<'a> Told<'a> {
         Signs::of(problem).test(&mut outcome, problem.dimension);
         let signed = outcome.signed.unwrap_or_default();
         let missed = tested.map_or(0, |tested| tested.missed as u64);
-        let is_missed = signed.wrong + signed.undecided + signed.mirrored as u64 + missed > 0;
+        let struck = signed.wrong + signed.undecided + signed.mirrored as u64 + missed;
         // Signs may be of points of several blocks.
         let is_plain = tested.is_none() && problem.orientations.is_empty();
         let can_be_cut =
@@ -275,8 +275,8 @@ impl<'a> Told<'a> {
         let is_tested = tested.is_none_or(Tested::is_decided);
         let is_undecided = is_certified && (!is_tested || signed.undecided > 0);
         self.worst = match (&outcome.status, self.worst) {
-            (_, worst) if arguments.first && is_missed => worse(worst, LIMIT),
             (_, worst) if first.is_some() && !is_undecided => worst,
+            (_, worst) if arguments.first && struck > 0 => worse(worst, LIMIT),
             (_, worst) if turns_at.is_some() => worse(worst, LIMIT),
             (Status::Stopped(_), _) | (_, STOPPED) => STOPPED,
             // Float runs do not tell which of their solutions is reached without a fold.
@@ -303,15 +303,10 @@ impl<'a> Told<'a> {
             let text = match (first, arguments.first) {
                 (Some(text), _) => text + &part,
                 // It is there, and no figure of the problem.
-                (None, true) if is_missed => {
-                    let struck = signed_in_words(&outcome).replace(
-                        " Of these",
-                        "Of all figures on the path that were looked at",
-                    );
-                    format!(
-                        "{}: No solution is reached without a fold. {part}{struck}\n",
-                        problem.name
-                    )
+                (None, true) if struck > 0 => {
+                    let signed = signed_in_words("the figures that were come to", &outcome);
+                    let name = &problem.name;
+                    format!("{name}: No solution is reached without a fold.{signed}\n{part}")
                 }
                 (None, true) if turns_at.is_some() => to_no_first(problem, turns_at),
                 (None, true) if !is_certified => format!(
@@ -339,7 +334,7 @@ impl<'a> Told<'a> {
         // What the path came to is out by now.
         let is_told = (!self.silent || self.has_json) && tested.is_none();
         let has_none = outcome.status == Status::Closed && outcome.solutions.is_empty();
-        let alone = match has_none && is_told && !is_missed {
+        let alone = match has_none && is_told && struck == 0 {
             true => arguments.alone(problem),
             false => Vec::new(),
         };

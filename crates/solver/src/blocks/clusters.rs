@@ -11,9 +11,9 @@ pub const MOST_POINTS: usize = 400;
 ///
 /// Cut at such places, a problem that has as many distances as free coordinates, where they are needed, gives parts that
 /// have so too: with n points, k parts and s shared distances (1 or 3) the sums are those of one. The shared
-/// signs that a problem asks for of points in one part alone are asked for of that part. The shared
 /// distances are exact numbers, so that figures of the parts, one of each, fit together, each as it is or mirrored; and
-/// every figure of the whole is made of figures of the parts.
+/// every figure of the whole is made of figures of the parts. A sign that the problem asks for of points of one part is
+/// asked for of that part.
 ///
 /// ```
 /// use krawl::problem::Problem;

@@ -29,6 +29,8 @@ struct Joint {
     shared: Vec<usize>,
     /// One solution of each class, as it is, and mirrored where that is another figure; of a block with signs of its own as it is alone.
     choices: Vec<Choice>,
+    /// Whether it has signs of its own, which say which of a figure and its mirror image is meant.
+    is_signed: bool,
 }
 
 /// All figures of a whole that consist of the solutions found for its [`clusters`](super::clusters), one of each, as they
@@ -44,8 +46,6 @@ pub struct Combined<'s> {
     joints: Vec<Joint>,
     /// The joint whose mirror images are left out, so that the figures come without theirs.
     halved: Option<usize>,
-    /// Whether a block has signs of its own, so that no figure's mirror image is one.
-    is_signed: bool,
 }
 
 impl<'s> Combined<'s> {
@@ -88,6 +88,7 @@ impl<'s> Combined<'s> {
                 choices: choices(&blocks[b], b, solutions[b], &shared),
                 points: points[b].clone(),
                 shared,
+                is_signed: !blocks[b].orientations.is_empty(),
             });
         }
         let mut out = Combined {
@@ -95,19 +96,16 @@ impl<'s> Combined<'s> {
             solutions,
             joints,
             halved: None,
-            is_signed: false,
         };
-        out.halve(blocks);
+        out.halve();
         Some(out)
     }
 
     /// Where every figure of a block differs from its mirror image, it is taken as it is: the other half are mirror images of
     /// the whole. (Whether a block is mirrored is told by the orientation of what it hangs on, so that the mirror image of the whole is that of
     /// every block.)
-    fn halve(&mut self, blocks: &[Problem]) {
-        // Signs of a block say which of both a figure is.
-        if blocks.iter().any(|block| !block.orientations.is_empty()) {
-            self.is_signed = true;
+    fn halve(&mut self) {
+        if self.is_signed() {
             return;
         }
         let has_all_images = |joint: &Joint| {
@@ -136,27 +134,26 @@ impl<'s> Combined<'s> {
         self.halved.is_some()
     }
 
-    /// Whether the figures are counted up to motions alone, as blocks have signs.
+    /// Whether a block has signs of its own, so that no figure's mirror image is counted as the same.
     pub fn is_signed(&self) -> bool {
-        self.is_signed
+        self.joints.iter().any(|joint| joint.is_signed)
     }
 
     /// Whether every solution of a block was proved to differ from its mirror image, or to be it as it is flat, so that no two
     /// combinations are the same figure, and none is missing.
-    pub fn has_all_mirror_images(&self, blocks: &[Problem]) -> bool {
+    pub fn has_all_mirror_images(&self) -> bool {
         let is_flat = |joint: &Joint| {
             let mut solutions = self.solutions[joint.block].iter();
             solutions.all(|solution| solution.is_degenerate)
         };
         let mut joints = self.joints.iter().enumerate();
         joints.all(|(k, joint)| {
-            let is_signed = !blocks[joint.block].orientations.is_empty();
-            let images = match is_flat(joint) || is_signed || self.halved == Some(k) {
+            let images = match is_flat(joint) || joint.is_signed || self.halved == Some(k) {
                 true => 1,
                 false => 2,
             };
             joint.choices.len() == images * self.solutions[joint.block].len()
-        }) && (self.halved.is_some() || self.is_signed || self.joints.iter().all(is_flat))
+        }) && (self.halved.is_some() || self.is_signed() || self.joints.iter().all(is_flat))
     }
 
     /// What the figure of this number is made of, block by block in the order in which they hang together. Numbers begin

@@ -81,10 +81,7 @@ use visit::Found;
 /// Where the problem asks for signs, parts of the search in which all figures have a wrong one are given up, and the figures found are those
 /// that have all signs, up to rigid motions. A cover is of all figures, whatever their signs.
 pub fn all(problem: &Problem, options: &Options) -> Result<Complete, Unserved> {
-    if problem.orientations.is_empty() {
-        return unsigned(problem, options);
-    }
-    let result = match options.cover {
+    let result = match options.cover && !problem.orientations.is_empty() {
         true => unsigned(&problem.unsigned(), options),
         false => unsigned(problem, options),
     };
@@ -94,7 +91,7 @@ pub fn all(problem: &Problem, options: &Options) -> Result<Complete, Unserved> {
     })
 }
 
-/// All figures of the search, where none is looked at by its signs once it is found.
+/// All figures of the search. Those in parts that are left may have any signs.
 fn unsigned(problem: &Problem, options: &Options) -> Result<Complete, Unserved> {
     let begin = Instant::now();
     let wants_one_search = options.cover || options.store.is_some();

@@ -402,6 +402,7 @@ impl Complete {
         let mut result = Complete::by_one_step(problem, Step::Figure { points, is_flat }, begin);
         let names = vec![near.left_out.name.clone()];
         result.strike_out(
+            problem,
             [problem.distances.len() - 1, 1],
             names,
             vec![vec![near.left_out]],

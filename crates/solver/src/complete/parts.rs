@@ -89,7 +89,7 @@ pub fn searched(problem: &Problem, options: &Options) -> Option<Complete> {
         let added = near.iter().flat_map(|one| one.added.clone()).collect();
         let figures = vec![figure; whole.solutions.len()];
         let counts = [problem.distances.len() - names.len(), names.len()];
-        whole.strike_out(counts, names, figures);
+        whole.strike_out(problem, counts, names, figures);
         if let Some(tested) = &mut whole.tested {
             tested.added = added;
         }
@@ -140,7 +140,7 @@ fn put_together(
         .collect();
     let combined = Combined::new(problem, blocks, solutions)?;
     whole.count = combined.count();
-    if !combined.has_all_mirror_images(blocks) {
+    if !combined.has_all_mirror_images() {
         // Then combinations are not counted once each.
         whole.count = Some(0);
         leave(

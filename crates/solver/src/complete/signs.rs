@@ -9,8 +9,13 @@ use crate::track::{Signed, Signs};
 
 impl Complete {
     /// Takes the figures out that have a wrong sign, and those of which that cannot be told, which stay undecided; mirror images stand in the place of
-    /// figures that have all signs reversed. Nothing, where the parts of the problem were put together by their signs.
-    pub(super) fn choose_signed(&mut self, problem: &Problem) {
+    /// figures that have all signs reversed. Nothing, where that was done before, or the problem asks for no signs. For each figure whether it is
+    /// still there.
+    pub(super) fn choose_signed(&mut self, problem: &Problem) -> Vec<bool> {
+        let all = vec![true; self.solutions.len()];
+        if problem.orientations.is_empty() {
+            return all;
+        }
         let signs = Signs {
             all: problem.orientations.clone(),
             mirrors: self.symmetry == Symmetry::Isometries,
@@ -19,7 +24,7 @@ impl Complete {
             self.symmetry = Symmetry::Motions;
         }
         if self.signed.is_some_and(|signed| signed.asked > 0) {
-            return;
+            return all;
         }
         let listed = self.solutions.len() as u64;
         let mut signed = Signed {
@@ -27,13 +32,7 @@ impl Complete {
             found: self.count.unwrap_or(u64::MAX),
             ..self.signed.unwrap_or_default()
         };
-        let places = signs.choose(&mut self.solutions, problem.dimension, &mut signed);
-        if let Some(tested) = &mut self.tested {
-            let mut places = places.iter();
-            tested
-                .figures
-                .retain(|_| places.next().is_none_or(Option::is_some));
-        }
+        let is_kept = signs.choose(&mut self.solutions, problem.dimension, &mut signed);
         // Those that are not listed were not looked at.
         signed.undecided += signed.found.saturating_sub(listed);
         self.count = Some(self.solutions.len() as u64);
@@ -58,6 +57,7 @@ impl Complete {
             self.reason =
                 Some("no figure that meets the constraints has the signs asked for".to_owned());
         }
+        is_kept
     }
 
     /// Leaves figures undecided.

@@ -10,7 +10,7 @@ use crate::blocks::{Account, LeftOut, MOST_POINTS, Ruler, Verdict};
 use crate::interval::{Interval, enclose, point};
 use crate::linalg::Span;
 use crate::places::Each as _;
-use crate::problem::{Distance, Problem, Target, free_coordinates, rigidity};
+use crate::problem::{Distance, Problem, Target, free_coordinates, rigidity, rigidity_row};
 use crate::system::typical_length;
 use crate::track::{Mode, Outcome};
 
@@ -121,15 +121,8 @@ impl Surplus {
             return None;
         }
         let places = problem.places();
-        let row = |&[a, b]: &[usize; 2]| {
-            let mut row = vec![0.0; d * n];
-            for k in 0..d {
-                let along = places[b][k] - places[a][k];
-                (row[d * a + k], row[d * b + k]) = (-along, along);
-            }
-            row
-        };
-        let rows: Vec<Vec<f64>> = edges.iter().map(row).collect();
+        let rows = edges.iter().map(|&edge| rigidity_row(d, &places, edge));
+        let rows: Vec<Vec<f64>> = rows.collect();
         let mut is_used = Span::default().choose(&rows, needed);
         for e in 0..edges.len() {
             if is_used.iter().filter(|used| **used).count() == needed {
@@ -169,7 +162,12 @@ impl Surplus {
         let figures = result.solutions.iter();
         let figures: Vec<Vec<LeftOut>> =
             figures.map(|figure| self.account(&figure.points)).collect();
-        result.strike_out([self.used(), self.spare.len()], self.names(), figures);
+        result.strike_out(
+            &self.problem,
+            [self.used(), self.spare.len()],
+            self.names(),
+            figures,
+        );
         if let Some(tested) = &mut result.tested {
             tested.added.extend(self.added.iter().cloned());
         }
@@ -256,13 +254,16 @@ fn miss(a: [Interval; 3], b: [Interval; 3], target: &Target) -> Interval {
 
 impl Complete {
     /// Takes the figures out that were proved to miss a constraint that was left out, beside those that were before. `figures`: how each stands
-    /// to these.
+    /// to these. Signs that the problem asks for come first: those without them are not looked at.
     pub(super) fn strike_out(
         &mut self,
+        problem: &Problem,
         [used, spare]: [usize; 2],
         left_out: Vec<String>,
-        figures: Vec<Vec<LeftOut>>,
+        mut figures: Vec<Vec<LeftOut>>,
     ) {
+        let mut is_kept = self.choose_signed(problem).into_iter();
+        figures.retain(|_| is_kept.next().unwrap_or(true));
         let before = self.tested.take().unwrap_or_default();
         let gone = before.left_out.len();
         let left_out = [before.left_out, left_out].concat();

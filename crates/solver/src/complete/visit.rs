@@ -9,7 +9,6 @@ use super::node::{MAX_SYMBOLS, Node, Sign};
 use super::place::{Place, Placed, determinant, place, squared_distance};
 use super::search::Search;
 use crate::certificate::cover::{Left, Mark};
-use crate::interval::vector::{cross, dot};
 use crate::places::array;
 use crate::track::Stand;
 use serde::{Deserialize, Serialize};
@@ -364,30 +363,11 @@ impl<'a, const D: usize, const S: usize, const M: usize> Visit<'a, D, S, M> {
         found.map(|pair| pair.0)
     }
 
-    /// Whether of the points that stand one has a wrong sign all over the part.
+    /// Whether all figures in the part have a wrong sign, as far as their points stand.
     fn has_wrong_sign(&self, step: usize) -> bool {
-        let signs = &self.search.signs[step];
         let points = &self.room.points;
-        let sign = |x: f64| if x > 0.0 { 1 } else { -1 };
-        // Where the middle of the part is in order, the whole is not wrong.
-        let middle = |simplex: &[usize]| {
-            let side = |k: usize| {
-                array(|i| {
-                    if i < D {
-                        points[simplex[k]][i].c[0] - points[simplex[0]][i].c[0]
-                    } else {
-                        0.0
-                    }
-                })
-            };
-            sign(match D {
-                2 => cross(side(1), side(2))[2],
-                _ => dot(side(1), cross(side(2), side(3))),
-            })
-        };
-        signs.all.len() > 1
-            && signs.stand(middle) == Stand::Wrong
-            && signs.stand(|simplex| determinant(points, simplex).range().sign(1.0)) == Stand::Wrong
+        let sign = |simplex: &[usize]| determinant(points, simplex).range().sign(1.0);
+        self.search.signs[step].stand(sign) == Stand::Wrong
     }
 
     /// Goes on with a smaller part, if what the equations leave is small enough.

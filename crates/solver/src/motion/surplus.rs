@@ -5,7 +5,7 @@ use crate::blocks::{Account, Floats, Ruler, System, Verdict, straight};
 use crate::edit::Round;
 use crate::interval::{Interval, hull};
 use crate::linalg::Span;
-use crate::problem::{Decimal, Problem, Target, free_coordinates};
+use crate::problem::{Problem, Target, free_coordinates, rigidity_row};
 use crate::system::{Quantity, typical_length};
 use crate::track::Control;
 
@@ -24,17 +24,8 @@ pub(super) fn surplus(problem: &Problem, driver: [usize; 2], choice: usize) -> O
 
 /// How many distances say something new, after a first one, and the indices of the others.
 fn taken(problem: &Problem, first: Option<[usize; 2]>, choice: usize) -> (usize, Vec<usize>) {
-    let (d, n) = (problem.dimension, problem.points.len());
-    let at = |p: usize| problem.points[p].sketch.each_ref().map(Decimal::to_f64);
-    let row = |[a, b]: [usize; 2]| {
-        let mut row = vec![0.0; d * n];
-        let (pa, pb) = (at(a), at(b));
-        for axis in 0..d {
-            row[d * a + axis] = pa[axis] - pb[axis];
-            row[d * b + axis] = pb[axis] - pa[axis];
-        }
-        row
-    };
+    let places = problem.places();
+    let row = |edge| rigidity_row(problem.dimension, &places, edge);
     let mut span = Span::default();
     if let Some(first) = first {
         span.take([row(first)]);

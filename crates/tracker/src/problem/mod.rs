@@ -31,7 +31,7 @@ pub use crate::statement::{counted, list};
 #[doc(hidden)]
 pub use bend::default_coefficient as default_bend;
 pub use builder::ProblemBuilder;
-pub use check::{Rigidity, rigidity};
+pub use check::{Rigidity, rigidity, rigidity_row};
 pub use error::{MAX_NAME, MAX_POINTS, Place, ProblemError};
 pub use file::{FileError, FileFault, MAX_FILE_SIZE};
 pub use published::Published;

@@ -95,15 +95,14 @@ impl Signs {
     }
 
     /// Takes those of some solutions out that are proved to have a wrong sign, or of which it is not certain, and puts mirror images in the place of
-    /// those that have all signs reversed. The other numbers of `Signed` are left as they are. For each solution its place after that, if it has one.
+    /// those that have all signs reversed. The other numbers of `Signed` are left as they are. For each solution whether it is still there.
     pub fn choose(
         &self,
         solutions: &mut Vec<Solution>,
         dimension: usize,
         signed: &mut Signed,
-    ) -> Vec<Option<usize>> {
-        let mut places = Vec::with_capacity(solutions.len());
-        let mut kept = Vec::new();
+    ) -> Vec<bool> {
+        let mut is_kept = Vec::with_capacity(solutions.len());
         for mut solution in std::mem::take(solutions) {
             // All points of a degenerate figure are in one plane: it has no signs.
             let stand = match solution.is_degenerate {
@@ -113,25 +112,24 @@ impl Signs {
             match stand {
                 Stand::Wrong => signed.wrong += 1,
                 Stand::Unknown => signed.undecided += 1,
-                Stand::Right | Stand::Mirrored => {
-                    if stand == Stand::Mirrored {
-                        signed.mirrored += 1;
-                        mirror(&mut solution, dimension);
-                        // The path comes to the figure, not to its mirror image.
-                        solution.place = None;
-                    }
-                    places.push(Some(kept.len()));
-                    kept.push(solution);
-                    continue;
+                Stand::Right => {}
+                Stand::Mirrored => {
+                    signed.mirrored += 1;
+                    mirror(&mut solution, dimension);
+                    // The path comes to the figure, not to its mirror image.
+                    solution.place = None;
                 }
             }
-            places.push(None);
+            is_kept.push(matches!(stand, Stand::Right | Stand::Mirrored));
+            if is_kept.ends_with(&[true]) {
+                solutions.push(solution);
+            }
         }
-        *solutions = kept;
-        places
+        is_kept
     }
 
-    /// Does so with the solutions of a path, where signs are asked for. Of a figure and its mirror image, if both are on the path, the first stays.
+    /// Does so with the solutions of a path, where signs are asked for. Of a figure and its mirror image, if both are on the path, the one
+    /// stays that has the signs as the path comes to it.
     pub fn test(&self, outcome: &mut Outcome, dimension: usize) {
         if self.all.is_empty() {
             return;
@@ -142,11 +140,17 @@ impl Signs {
             ..Signed::default()
         };
         self.choose(&mut outcome.solutions, dimension, &mut signed);
+        let met = outcome.solutions.iter().filter(|s| s.place.is_some());
+        let met: Vec<usize> = met.map(|solution| solution.class).collect();
         let mut seen = Vec::new();
         outcome.solutions.retain(|solution| {
-            let is_again = self.mirrors && seen.contains(&solution.class);
-            seen.push(solution.class);
-            !is_again
+            let class = &solution.class;
+            let is_image = solution.place.is_none() && met.contains(class);
+            let is_kept = !self.mirrors || !is_image && !seen.contains(class);
+            if is_kept {
+                seen.push(*class);
+            }
+            is_kept
         });
         for solution in &mut outcome.solutions {
             solution.mirror_of = None;

@@ -264,6 +264,7 @@ fn searched(
         let accounts = figures.found.iter().map(|figure| test.account(figure));
         let accounts: Vec<Vec<LeftOut>> = accounts.collect();
         result.strike_out(
+            problem,
             [homotopy.equations, homotopy.spare.len()],
             test.names(),
             accounts,

@@ -4,7 +4,7 @@ mod rigidity;
 mod sketch;
 mod triangle;
 
-pub use rigidity::{Rigidity, rigidity};
+pub use rigidity::{Rigidity, rigidity, rigidity_row};
 pub(super) use sketch::{coincide, collinear};
 
 use super::{DEPENDS, Distance, Point, ProblemError, free_coordinates, list};

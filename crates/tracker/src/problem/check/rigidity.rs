@@ -42,6 +42,16 @@ pub fn rigidity(dimension: usize, points: usize, edges: &[[usize; 2]]) -> Rigidi
     }
 }
 
+/// The row of the rigidity matrix for the distance of two points, in floats, where points have these places.
+pub fn rigidity_row(dimension: usize, places: &[[f64; 3]], [i, j]: [usize; 2]) -> Vec<f64> {
+    let mut row = vec![0.0; dimension * places.len()];
+    for k in 0..dimension {
+        let along = places[i][k] - places[j][k];
+        (row[dimension * i + k], row[dimension * j + k]) = (along, -along);
+    }
+    row
+}
+
 /// The rigidity matrix at random coordinates modulo a prime.
 struct Matrix<'a> {
     dimension: usize,
