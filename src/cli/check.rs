@@ -1,7 +1,7 @@
 //! `krawl check`: reads a problem and prints what it understood.
 
 use super::{BAD_INPUT, CLOSED, OVER, input, output};
-use krawl::blocks::{Census, MOST_POINTS, Why, clusters, pinned, surplus};
+use krawl::blocks::{Census, Finding, MOST_POINTS, Surplus, Why, clusters, pinned, surplus};
 use krawl::edit::{Decomposition, Standing, TooMany};
 use krawl::import::{self, Format};
 use krawl::plan::Plan;
@@ -241,6 +241,11 @@ impl Loose {
         match &self.standing.too_many {
             TooMany::None | TooMany::Undecided => message.to_owned(),
             TooMany::Follow => message.replacen(DEPENDS, "follows from the others", 1),
+            // Half a unit of its own last digit is not all that may be off: so may be the others'.
+            TooMany::Contradict { name, .. } if self.is_within_digits(name) => format!(
+                "{message}; {name} is missed at the figure to which the sketch leads, by no more than the digits of the others \
+                 explain"
+            ),
             TooMany::Contradict { name, is_proved } => {
                 let at = match is_proved {
                     true => "",
@@ -269,6 +274,21 @@ impl Loose {
                 }
             }
         }
+    }
+
+    /// Whether what a constraint is missed by is within what the digits of the numbers allow: wherever constraints depend on each
+    /// other and it is one of these.
+    fn is_within_digits(&self, name: &str) -> bool {
+        let all = self.census.surplus.iter();
+        let is_of_it = |one: &&Surplus| one.name == name || one.others.iter().any(|o| o == name);
+        let mut of_it = all.filter(is_of_it).peekable();
+        of_it.peek().is_some()
+            && of_it.all(|one| {
+                matches!(
+                    one.finding,
+                    Finding::Follows | Finding::Rounded { .. } | Finding::Met
+                )
+            })
     }
 
     /// What is wrong, what was understood, what is free, and the blocks.

@@ -10,6 +10,7 @@ use crate::constraint::{Symmetry, symmetry};
 use crate::interval::{Interval, hull};
 use crate::order::each_once;
 use crate::problem::{Problem, Shape, counted, list};
+use crate::remarks::moves;
 use crate::system::Located;
 use crate::track::{EndKind, Mode, Outcome, PathEnd, Solution, Space, Status};
 use std::fmt::{self, Write};
@@ -133,6 +134,7 @@ fn write_table(out: &mut String, problem: &Problem, ran: Ran, most: usize) -> fm
     if outcome.status == Status::Closed && outcome.solutions.is_empty() && found == 0 {
         match problem.impossible_triangle() {
             Some(message) => writeln!(out, "There can be none: {message}.")?,
+            None if moves(problem).is_some() => writeln!(out, "{IT_MOVES}")?,
             None => writeln!(out, "{NOTHING_FOUND}")?,
         }
     }
@@ -163,6 +165,11 @@ const NOTHING_FOUND: &str = "\
 This says nothing about figures that are not on this path. Other paths through the same sketch: set
 `bend_coefficient = 0` (or smaller, or larger) under [homotopy], or bend another length. Or move the sketch
 nearer to the figure wanted.";
+
+/// The same where the sketch seems to move with all its constraints kept.
+const IT_MOVES: &str = "\
+This says nothing about figures that are not on this path, such as those through which the sketch can be moved:
+`krawl motion --free DIMENSION` follows these.";
 
 /// The number of classes of congruent solutions.
 fn classes(outcome: &Outcome) -> usize {

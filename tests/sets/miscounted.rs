@@ -126,6 +126,45 @@ fn no_contradiction_is_seen_where_there_is_none() {
     }
 }
 
+/// All distances of six points of a figure, with 4 digits: what one misses by where the others are met is more than half a unit of its own
+/// last digit, as all are rounded, and no contradiction; with one of them made wrong it is one.
+#[test]
+fn the_digits_of_all_numbers_are_looked_at() {
+    let points: [(f64, f64); 6] = [
+        (2.7362, 2.687),
+        (-2.6607, -2.4908),
+        (2.013, 1.4158),
+        (1.0184, -1.1512),
+        (0.6357, 0.6408),
+        (0.4872, -2.0497),
+    ];
+    let all = |off: f64| {
+        let mut text = "name = \"all\"\ndimension = 2\n[points]\n".to_owned();
+        for (k, (x, y)) in points.iter().enumerate() {
+            text += &format!("P{k} = [{x:.3}, {y:.3}]\n");
+        }
+        text += "[constraints]\ndistances = [\n";
+        for (i, a) in points.iter().enumerate() {
+            for (j, b) in points.iter().enumerate().skip(i + 1) {
+                let off = if (i, j) == (3, 4) { off } else { 0.0 };
+                let length = (a.0 - b.0).hypot(a.1 - b.1) + off;
+                text += &format!("[\"P{i}\", \"P{j}\", {length:.4}],\n");
+            }
+        }
+        text + "]\n"
+    };
+    let [message, text] = check("rounded", &all(0.0));
+    assert_eq!(text.matches("seems to follow").count(), 6, "{text}");
+    assert!(!message.contains("contradicts the others"), "{message}");
+    assert!(
+        message.contains("than the digits of the others explain"),
+        "{message}"
+    );
+    let [message, text] = check("wrong", &all(0.01));
+    assert!(text.contains("contradicts"), "{text}");
+    assert!(message.contains("contradicts the others"), "{message}");
+}
+
 /// Of two groups of constraints that depend on each other the one that is listed need not be the one with the contradiction.
 #[test]
 fn a_contradiction_is_not_laid_to_others() {

@@ -151,12 +151,12 @@ pub(crate) fn look(
 }
 
 impl Row {
-    /// The largest derivative of the left-hand side at a place.
-    pub(crate) fn steepest(&self, at: &[f64]) -> f64 {
+    /// The length of the gradient of the left-hand side at a place.
+    pub(crate) fn steepness(&self, at: &[f64]) -> f64 {
         let mut slopes: BTreeMap<usize, f64> = BTreeMap::new();
         self.evaluate(at, |u, slope| *slopes.entry(u).or_default() += slope);
-        let steepest = slopes.values().fold(0.0, |max: f64, s| max.max(s.abs()));
-        steepest.max(f64::MIN_POSITIVE)
+        let squares: f64 = slopes.values().map(|slope| slope * slope).sum();
+        squares.sqrt().max(f64::MIN_POSITIVE)
     }
 
     /// The value of the left-hand side at a place, and its derivatives, one by one.

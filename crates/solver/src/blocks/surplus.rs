@@ -133,6 +133,12 @@ pub fn surplus(problem: &Problem) -> Result<Census, String> {
         true => meets_all().or_else(|| floats.meet(&independent, at.clone())),
         false => None,
     };
+    // How much the right-hand side of an equation grows with its number, and by how much it may be off by the number's last digit.
+    let steepness = |row: usize| match distance(&problem, owners[row]) {
+        Some(length) => 2.0 * length,
+        None => system.rows[row].steepness(&at) * scale(row) / unit,
+    };
+    let slack = |row: usize| steepness(row) * digits_of(&problem, owners[row]);
     let mut found: BTreeMap<usize, (Surplus, usize)> = BTreeMap::new();
     for (row, circuit) in circuits {
         if ranks[row] == OBJECT {
@@ -148,25 +154,31 @@ pub fn surplus(problem: &Problem) -> Result<Census, String> {
             let rights = |i: usize| vec![target(of[i])];
             let holds = how.holds(&right, rights, |k| given[k].constant());
             let off = (&right[0] - &how.value(rights)).enclose();
+            let rounded = how.sum.iter().map(|(i, factor)| {
+                let factor = enclose_rational(factor).mag();
+                factor * slack(of[*i])
+            });
+            let rounded: f64 = rounded.sum();
             let made_of = how.sum.iter().map(|(i, _)| *i).chain(how.kept);
             let made_of: BTreeSet<usize> = made_of.map(|i| of[i]).collect();
-            Some((holds, off, made_of.into_iter().collect::<Vec<usize>>()))
+            Some((holds, off, rounded, made_of.into_iter().collect()))
         };
+        let rows: Vec<usize> = circuit.iter().map(|&(k, _)| k).collect();
         // At a special drawing rows of an identity may have no part in the combination of derivatives.
-        let found_here = identity(&circuit);
+        let found_here = identity(&rows);
         let is_small = independent.len() <= SMALL;
         let proved = found_here.or_else(|| is_small.then(|| identity(&independent)).flatten());
-        let (identity, circuit) = match proved {
-            Some((holds, off, made_of)) => (Some((holds, off)), made_of),
-            None => (None, circuit),
+        let (identity, rounded, circuit) = match proved {
+            Some((holds, off, rounded, made_of)) => (Some((holds, off)), rounded, made_of),
+            None => {
+                let steep = |k: usize| system.rows[k].steepness(&at) * scale(k);
+                let of = |&(k, part): &(usize, f64)| part.abs() * slack(k) / steep(k);
+                let rounded = circuit.iter().map(of).sum::<f64>() * steep(row);
+                (None, rounded, rows)
+            }
         };
-        let numbers = circuit.iter().chain([&row]);
-        let digits: f64 = numbers.map(|&k| digits_of(&problem, owners[k])).sum();
-        let most = digits.max(LEAST_PART * unit);
-        let divisor = match distance(&problem, owners[row]) {
-            Some(length) => 2.0 * length,
-            None => system.rows[row].steepest(&at) * scale(row) / unit,
-        };
+        let divisor = steepness(row);
+        let most = ((slack(row) + rounded) / divisor).max(LEAST_PART * unit);
         let finding = match (identity, &figure) {
             (Some((true, _)), _) => Finding::Follows,
             (Some((false, off)), _) => match (off / point(divisor)).mag() {
@@ -263,13 +275,12 @@ fn digits_of(problem: &Problem, owner: usize) -> f64 {
     number.map_or(0.0, half_digit)
 }
 
+/// Rows that are combinations of others, each with those others and their parts in it.
+type Circuits = Vec<(usize, Vec<(usize, f64)>)>;
+
 /// Of rows in this order those that say something new after those before, and each other one with the rows of which it is a
-/// combination: by the method of Gram and Schmidt, each row twice.
-fn dependent(
-    floats: &Floats,
-    order: &[usize],
-    at: &[f64],
-) -> (Vec<usize>, Vec<(usize, Vec<usize>)>) {
+/// combination, all rows scaled to length 1: by the method of Gram and Schmidt, each row twice.
+fn dependent(floats: &Floats, order: &[usize], at: &[f64]) -> (Vec<usize>, Circuits) {
     const PART: f64 = 1e-6;
     let (jacobian, _) = floats.linearise(order, at);
     // Directions of length 1 at right angles to each other, and of which of the rows taken each is a combination.
@@ -299,7 +310,7 @@ fn dependent(
             let all = taken.iter().zip(&of);
             let circuit = all
                 .filter(|(_, part)| part.abs() > PART)
-                .map(|(&row, _)| row);
+                .map(|(&row, &part)| (row, part));
             circuits.push((row, circuit.collect()));
         }
     }

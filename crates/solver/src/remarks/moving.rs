@@ -45,7 +45,7 @@ impl Moves {
         format!(
             "It seems to move: from the sketch {} can be moved, the first by {:.2e} and perhaps further, with all constraints kept \
              within {:.0e} (seen in floats, not proved). If it does, its figures fill a curve, so that none of them can be proved \
-             to be the only one near it, and they cannot be listed: `krawl motion` follows it; a dimension changed, or one more given, may stop it.",
+             to be the only one near it, and they cannot be listed: `krawl motion --free DIMENSION` follows it; a dimension changed, or one more given, may stop it.",
             list(&points, 4),
             self.by,
             self.missed.max(1e-15)
