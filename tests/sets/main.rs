@@ -22,3 +22,4 @@ mod more_than_square;
 mod poses;
 mod sides;
 mod signs;
+mod torsions;

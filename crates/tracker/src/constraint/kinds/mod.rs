@@ -34,6 +34,7 @@ pub const KINDS: &[&dyn Kind] = &[
     &distance::Distances,
     &angle::Angles,
     &turn::Turns,
+    &turn::Torsions,
     &travel::Travels,
     &radius::RADII,
     &radius::DIAMETERS,

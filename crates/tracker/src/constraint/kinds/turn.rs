@@ -1,4 +1,4 @@
-//! `turns`: angles in the plane, and of joints, with their sense, which may be any number of degrees.
+//! `turns` and `torsions`: angles in the plane, of joints, and about a line in space, with their sense, which may be any number of degrees.
 //!
 //! The cosine and the sine go from those of the sketch to those of the angle on a curve round 0 (`lowering/turn.rs`), so that an edit by 250
 //! or by −400 degrees turns as far, and that way round.
@@ -47,5 +47,47 @@ impl Kind for Turns {
         };
         let (u, v) = (low.heading(u), low.heading(v));
         low.turn(of.name, &u, &v, &degrees)
+    }
+}
+
+/// See the module.
+pub struct Torsions;
+
+impl Kind for Torsions {
+    fn key(&self) -> &'static str {
+        "torsions"
+    }
+
+    fn meaning(&self) -> &'static str {
+        "seen along the line from the second of four points to the third, by how many degrees clockwise the last is turned from the \
+         first; any number, with its sign, so that mirror images differ"
+    }
+
+    fn takes(&self) -> &'static str {
+        "four points, such as atoms of a chain in order"
+    }
+
+    fn measure(&self) -> Measure {
+        Measure::Turn
+    }
+
+    fn lower(&self, mut of: Given, low: &mut Lowering) -> Result<(), Fault> {
+        if low.problem.dimension != 3 {
+            return Err("in the plane nothing turns about a line: say `turns`".to_owned());
+        }
+        let [a, b, c, d] = [
+            of.items.point()?,
+            of.items.point()?,
+            of.items.point()?,
+            of.items.point()?,
+        ];
+        of.items.end()?;
+        if a == d {
+            return Err(
+                "the first and the last of the four are one point: name another".to_owned(),
+            );
+        }
+        let degrees = of.number().value().clone();
+        low.torsion(of.name, [a, b, c, d], &degrees)
     }
 }

@@ -1,8 +1,8 @@
 //! Turns: directions that go round with t, by any number of degrees.
 
-use super::super::frame::{cross_in_plane, dot, length};
+use super::super::frame::{cross_in_plane, dot, is_zero, length};
 use super::super::polynomial::Polynomial;
-use super::super::quadratic::{Product, Role, value};
+use super::super::quadratic::{Form, Product, Role, value};
 use super::{Arrow, Fault, Lowering, Parity, Start};
 use crate::interval::Real;
 use crate::rational::Rational;
@@ -35,7 +35,47 @@ impl Lowering<'_> {
         self.turn_by(name, [dot, cross], (now, &sizes, power), degrees)
     }
 
-    /// The same, of products that are the cosine and the sine of an angle, both multiplied by a size that is greater than 0. `now`: what these
+    /// Says that the half planes at the line of b and c, one through a and the other through d, are at an angle of so many degrees,
+    /// greater than 0 where, seen from b, the second is turned clockwise (IUPAC's sign). With the spans p, q, r from a to d, the normals
+    /// m = p × q and n = q × r: `m·n` and `|q| (p·n)` are its cosine and its sine, both multiplied by |m| |n|.
+    ///
+    /// # Errors
+    /// If points coincide or are on one line in the sketch, or an edit would turn by too much at once.
+    pub fn torsion(
+        &mut self,
+        name: &str,
+        [a, b, c, d]: [usize; 4],
+        degrees: &Rational,
+    ) -> Result<(), Fault> {
+        let [p, q, r] = [self.span(a, b)?, self.span(b, c)?, self.span(c, d)?];
+        let [m, n] = [(&p, &q), (&q, &r)].map(|(one, other)| {
+            let normal = format!("the normal of {} and {}", one.name, other.name);
+            self.cross(one, other, normal)
+        });
+        if let Some(flat) = [&m, &n].into_iter().find(|normal| is_zero(&normal.at)) {
+            return Err(format!(
+                "{} is zero, as the points are on one line in the sketch: move one of them",
+                flat.name
+            ));
+        }
+        let (triple, power) = (dot(&p.at, &n.at), p.power + n.power);
+        let what = format!("{name}, the triple product");
+        let height = self.scalar(what.clone(), power, Parity::Odd, triple.clone().into());
+        let mut products = self.dot(-1, &p.forms, &n.forms);
+        products.push(Product::new(1, value(height), Form::One));
+        self.equate(&what, products, vec![Real::zero()], power);
+        let axis = self.length(&q);
+        let products = [
+            self.dot(1, &m.forms, &n.forms),
+            vec![Product::new(1, value(axis), value(height))],
+        ];
+        let along = &length(&q.at) * &Real::from(triple);
+        let now = [Real::from(dot(&m.at, &n.at)), along];
+        let sizes = &length(&m.at) * &length(&n.at);
+        self.turn_by(name, products, (now, &sizes, m.power + n.power), degrees)
+    }
+
+    /// Says it of products that are the cosine and the sine of an angle, both multiplied by a size that is greater than 0. `now`: what these
     /// are in the sketch, the size there, and the power of the unit of length that it has.
     pub(super) fn turn_by(
         &mut self,
