@@ -12,7 +12,10 @@ use super::{BAD_INPUT, CLOSED, INCOMPLETE, NOT_PROVED, STOPPED, input, interrupt
 use krawl::blocks::Account;
 use krawl::complete::{Complete, Keep, Options, Progress, Status, Tested, Unserved, all};
 use krawl::constraint::Symmetry;
-use krawl::report::{ProgressLine, complete_to_json, complete_to_table, complete_to_value};
+use krawl::report::{
+    ProgressLine, complete_to_json, complete_to_table, complete_to_value, conformers_to_table,
+    conformers_to_value,
+};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -84,6 +87,11 @@ pub struct Arguments {
     /// with]
     #[arg(long, value_name = "X", value_parser = seconds, hide_short_help = true)]
     redundant_tolerance: Option<f64>,
+    /// Look for figures whatever their signs are
+    ///
+    /// Whatever `orientation` asks for, and the chirality that a molecule has in its file
+    #[arg(long, hide_short_help = true)]
+    any_signs: bool,
     #[command(flatten)]
     take: Take,
     #[command(flatten)]
@@ -118,7 +126,11 @@ pub fn run(arguments: &Arguments) -> u8 {
 fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let (file, sketch) = (&arguments.file, arguments.sketch.as_deref());
     arguments.take.check(file)?;
-    let asked = input::asked(file, sketch, arguments.redundant_tolerance)?;
+    let (asked, skeleton) = input::asked(
+        (file, sketch),
+        arguments.redundant_tolerance,
+        arguments.any_signs,
+    )?;
     let (problem, made, surplus) = match asked {
         Asked::Surplus(surplus) => (surplus.problem.clone(), Account::default(), Some(surplus)),
         Asked::Problem(read) => {
@@ -201,12 +213,25 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     }
     written &= pictures.write_page(|| complete_to_value(&problem, &result))?;
     let figures = || result.solutions.iter().map(placed);
+    let either = result.symmetry == Symmetry::Isometries;
+    let conformers = skeleton.map(|skeleton| {
+        let solutions = result.solutions.iter();
+        let middles = solutions.map(|s| s.points.iter().map(|p| p.map(|x| x.mid())).collect());
+        let middles: Vec<Vec<[f64; 3]>> = middles.collect();
+        let conformers = skeleton.conformers(&middles, either);
+        (skeleton, conformers)
+    });
     if let Some(json) = &json {
-        let text = match measures.is_empty() {
-            true => complete_to_json(&problem, &result),
-            false => {
+        let text = match (measures.is_empty(), &conformers) {
+            (true, None) => complete_to_json(&problem, &result),
+            (_, conformers) => {
                 let mut value = complete_to_value(&problem, &result);
-                value["measures"] = measures.to_value(figures());
+                if !measures.is_empty() {
+                    value["measures"] = measures.to_value(figures());
+                }
+                if let Some((skeleton, conformers)) = conformers {
+                    value["conformers"] = conformers_to_value(&problem, skeleton, conformers);
+                }
                 value.to_string()
             }
         };
@@ -215,6 +240,9 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     if !arguments.quiet && !elsewhere {
         let mut text = complete_to_table(&problem, &result);
         text += &measures.to_table("", figures());
+        if let Some((skeleton, conformers)) = &conformers {
+            text += &conformers_to_table(&problem, skeleton, conformers);
+        }
         let made = made.clause();
         if !made.is_empty() {
             text +=
@@ -229,7 +257,6 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         first: None,
         is_all: result.count == Some(count),
     };
-    let either = result.symmetry == Symmetry::Isometries;
     written &= arguments
         .take
         .write((file, sketch), &problem, listed, |number| {

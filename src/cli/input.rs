@@ -5,7 +5,7 @@ use krawl::blocks::Account;
 use krawl::complete::{Surplus, has_equations_to_spare};
 use krawl::constraint::fix_frame;
 use krawl::edit::{Decomposition, Setting, completed};
-use krawl::import::{self, Figure, Format, Imported};
+use krawl::import::{self, Figure, Format, Imported, Skeleton};
 use krawl::interval::Interval;
 use krawl::problem::{MAX_FILE_SIZE, Problem};
 use krawl::system::Located;
@@ -100,10 +100,21 @@ pub enum Asked {
     Problem(Box<(Problem, Account)>),
 }
 
-/// Reads what a set of all solutions is to be about.
-pub fn asked(file: &Path, sketch: Option<&str>, tolerance: Option<f64>) -> Result<Asked, String> {
+/// Reads what a set of all solutions is to be about, with the signs that are asked for or, with `any_signs`, without; and of a
+/// molecule its atoms and bonds.
+pub fn asked(
+    (file, sketch): (&Path, Option<&str>),
+    tolerance: Option<f64>,
+    any_signs: bool,
+) -> Result<(Asked, Option<Skeleton>), String> {
+    let mut loaded = load(file, sketch)?.with_any_signs(any_signs);
+    let imported = loaded.imported.as_mut();
+    let skeleton = imported.and_then(|(imported, _)| imported.skeleton.take());
+    Ok((asked_of(file, loaded, tolerance)?, skeleton))
+}
+
+fn asked_of(file: &Path, loaded: Loaded, tolerance: Option<f64>) -> Result<Asked, String> {
     let of_problem = |read| Asked::Problem(Box::new(read));
-    let loaded = load(file, sketch)?;
     if is_sketch(file) {
         return provable(file, &loaded.problem).map(of_problem);
     }
@@ -278,6 +289,19 @@ pub fn unsupported(imported: &Imported) -> String {
 }
 
 impl Loaded {
+    /// The same, where `any` figure is wanted whatever its signs are.
+    pub fn with_any_signs(mut self, any: bool) -> Self {
+        let imported = self.imported.as_mut().map(|(imported, _)| imported);
+        let surplus = imported.and_then(|imported| imported.surplus.as_mut());
+        if any {
+            self.problem.orientations.clear();
+            if let Some(surplus) = surplus {
+                surplus.problem.orientations.clear();
+            }
+        }
+        self
+    }
+
     /// The distances beside those that are searched or followed: of a molecule what was left out of it as it was read, of a problem file
     /// without a frame of its own those that are more than it needs.
     pub fn surplus(&self) -> Option<Cow<'_, Surplus>> {

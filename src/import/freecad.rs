@@ -712,6 +712,7 @@ pub fn read(bytes: &[u8], index: usize) -> Result<Imported, String> {
         problem,
         unsupported,
         surplus: None,
+        skeleton: None,
         places: AllPlaces::FreeCad(Places {
             numbers: reader.numbers,
             values,

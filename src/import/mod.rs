@@ -35,6 +35,7 @@ pub mod urdf;
 
 use crate::complete::Surplus;
 use crate::problem::{Decimal, Problem, Target};
+pub use molecule::{Conformer, Skeleton};
 use std::collections::BTreeMap;
 
 /// The largest file that is read, in bytes.
@@ -95,6 +96,8 @@ pub struct Imported {
     pub unsupported: BTreeMap<String, usize>,
     /// Of a molecule: the distances of bonds and bond angles that [`Imported::problem`] has not, and what it has in place of such.
     pub surplus: Option<Surplus>,
+    /// Of a molecule: its atoms and bonds.
+    pub skeleton: Option<Skeleton>,
     /// What was left out of what the file has, in words that follow *it was read*, as `without its water (3)`.
     pub notes: Vec<String>,
     /// Dimensions that the file's own program computes.

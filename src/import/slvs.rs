@@ -946,6 +946,7 @@ pub fn read(bytes: &[u8], index: usize) -> Result<Imported, String> {
         tied: Vec::new(),
         unsupported,
         surplus: None,
+        skeleton: None,
         places: AllPlaces::SolveSpace(Places {
             plane,
             points: places,

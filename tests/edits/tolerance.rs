@@ -159,6 +159,77 @@ fn a_stack_of_plates_adds_up() {
     );
 }
 
+/// Two sides and the angle between them, each with limits or without, against the law of cosines: what has no limits stays what it is,
+/// also where its equation could be written with the lengths of both sides.
+#[test]
+fn angles_stay_what_they_are_or_within_their_limits() {
+    let at_points = "angles = [[\"b\", \"a\", \"c\", 80]]\n";
+    let of_lines =
+        "angles = [[\"l\", \"m\", 80]]\n[lines]\nl = [\"a\", \"b\"]\nm = [\"a\", \"c\"]\n";
+    let leg = |k: usize, low: f64, high: f64| Limits {
+        index: k,
+        values: [decimal(low), decimal(high)],
+    };
+    let sides = [leg(0, 3.9, 4.1), leg(1, 2.95, 3.05)];
+    let angle = leg(2, 79.5, 80.5);
+    let opposite = |[b, c, degrees]: [f64; 3]| {
+        (b * b + c * c - 2.0 * b * c * degrees.to_radians().cos()).sqrt()
+    };
+    for angles in [at_points, of_lines] {
+        let text = format!(
+            "name = \"two sides\"\ndimension = 2\n[points]\na = [0, 0]\nb = [4, 0]\nc = [0.5, 3]\n[constraints]\n\
+             distances = [[\"a\", \"b\", 4], [\"a\", \"c\", 3]]\n{angles}"
+        );
+        let problem = Problem::parse(&text, "two.toml").unwrap();
+        for within in [
+            vec![sides[0].clone()],
+            sides.to_vec(),
+            vec![angle.clone()],
+            vec![sides[0].clone(), sides[1].clone(), angle.clone()],
+        ] {
+            let study = run(&problem, &within, &["b-c", "angle b a c"]).unwrap();
+            let ends = |k: usize, given: f64| {
+                let limits = within.iter().find(|one| one.index == k);
+                limits.map_or([given; 2], |one| one.values.each_ref().map(Decimal::to_f64))
+            };
+            let [b, c, degrees] = [ends(0, 4.0), ends(1, 3.0), ends(2, 80.0)];
+            let steps = |[low, high]: [f64; 2]| {
+                (0..=4).map(move |k| low + f64::from(k) * (high - low) / 4.0)
+            };
+            let [length, turn] = &study.measured[..] else {
+                panic!()
+            };
+            let (mut least, mut most) = (f64::INFINITY, 0.0f64);
+            for b in steps(b) {
+                for c in steps(c) {
+                    for degrees in steps(degrees) {
+                        let found = opposite([b, c, degrees]);
+                        (least, most) = (least.min(found), most.max(found));
+                    }
+                }
+            }
+            let outer = |of: &[krawl::interval::Interval; 2]| [of[0].inf(), of[1].sup()];
+            let [low, high] = outer(&length.bounds);
+            assert!(low <= least && most <= high, "{low} {least} {most} {high}");
+            assert!(
+                (high - low) < 1.05 * (most - least),
+                "{low} {least} {most} {high}"
+            );
+            let [low, high] = outer(&turn.bounds);
+            assert!(low <= degrees[0] && degrees[1] <= high, "{low} {high}");
+            assert!(
+                high - low < 1.05 * (degrees[1] - degrees[0]) + 0.2,
+                "{low} {high}"
+            );
+        }
+    }
+    let text = "name = \"far\"\ndimension = 2\n[points]\na = [0, 0]\nb = [4, 0]\nc = [-3, 0.1]\n[constraints]\n\
+                distances = [[\"a\", \"b\", 4], [\"a\", \"c\", 3]]\nangles = [[\"b\", \"a\", \"c\", 178]]\n";
+    let problem = Problem::parse(text, "far.toml").unwrap();
+    let wrong = run(&problem, &[leg(2, 176.0, 180.0)], &["b-c"]).unwrap_err();
+    assert!(wrong.contains("between 0 and 180 degrees"), "{wrong}");
+}
+
 #[test]
 fn what_is_not_proved_or_makes_no_sense_is_said() {
     let problem = Problem::read("docs/examples/plate.toml").unwrap();

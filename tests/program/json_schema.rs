@@ -134,6 +134,11 @@ fn results_of_other_verbs_meet_their_schemas() {
         (
             "complete",
             "complete",
+            &["all", "tests/data/norbornane.sdf"],
+        ),
+        (
+            "complete",
+            "complete",
             &["all", "problems/constraints/pentahedron.toml"],
         ),
         (

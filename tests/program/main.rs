@@ -7,6 +7,7 @@ mod equations;
 mod help;
 mod joints;
 mod json_schema;
+mod molecules;
 mod motion;
 mod page;
 mod problem_files;

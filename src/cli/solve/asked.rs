@@ -37,7 +37,7 @@ impl Arguments {
         if is_whole && input::is_sketch(file) {
             return input::read(file, sketch).map(whole);
         }
-        let loaded = input::load(file, sketch)?;
+        let loaded = input::load(file, sketch)?.with_any_signs(self.any_signs);
         let is_in_its_frame = fix_frame(&loaded.problem);
         if let Some(surplus) = loaded.surplus()
             && (self.mode == Mode::Certified || loaded.fault.is_none())

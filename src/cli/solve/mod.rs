@@ -136,6 +136,11 @@ pub struct Arguments {
     /// with a construction plan of one driving parameter
     #[arg(long, hide_short_help = true)]
     no_count: bool,
+    /// Look for figures whatever their signs are
+    ///
+    /// Whatever `orientation` asks for, and the chirality that a molecule has in its file
+    #[arg(long, hide_short_help = true)]
+    any_signs: bool,
     #[command(flatten)]
     left_out: LeftOut,
     #[command(flatten)]

@@ -1,5 +1,6 @@
 //! What holds a molecule: as many constraints as it has free coordinates, those of bonds first.
 
+use super::skeleton::{neighbours, steps};
 use crate::interval::vector::{cross, dot, length, minus};
 use crate::linalg::Span;
 use crate::order::InOrder;
@@ -71,30 +72,12 @@ impl Candidates {
     fn new(places: &[Place], bonds: &[[usize; 2]]) -> Self {
         let n = places.len();
         let apart = |a: usize, b: usize| length(minus(places[a], places[b]));
-        let mut near = vec![BTreeSet::new(); n];
-        for &[a, b] in bonds {
-            near[a].insert(b);
-            near[b].insert(a);
-        }
-        // Steps along bonds from each atom, without one bond.
-        let steps = |from: usize, without: Option<[usize; 2]>| -> Vec<usize> {
-            let mut steps = vec![usize::MAX; n];
-            steps[from] = 0;
-            let mut next = std::collections::VecDeque::from([from]);
-            while let Some(a) = next.pop_front() {
-                for &b in &near[a] {
-                    let skip = without.is_some_and(|[x, y]| [a, b] == [x, y] || [a, b] == [y, x]);
-                    if !skip && steps[b] == usize::MAX {
-                        steps[b] = steps[a] + 1;
-                        next.push_back(b);
-                    }
-                }
-            }
-            steps
-        };
+        let near = neighbours(n, bonds);
         let in_ring: BTreeSet<[usize; 2]> = bonds
             .iter()
-            .filter(|&&[a, b]| steps(a, Some([a, b]))[b] != usize::MAX)
+            .filter(|&&[a, b]| {
+                steps(&near, a, |way| way == [a, b] || way == [b, a])[b] != usize::MAX
+            })
             .map(|&[a, b]| [a.min(b), a.max(b)])
             .collect();
         let is_ring = |a: usize, b: usize| in_ring.contains(&[a.min(b), a.max(b)]);
@@ -113,7 +96,7 @@ impl Candidates {
         }
         let mut candidates: Vec<(usize, f64, [usize; 2])> = Vec::new();
         for a in 0..n {
-            let steps = steps(a, None);
+            let steps = steps(&near, a, |_| false);
             for b in a + 1..n {
                 let rank = match steps[b] {
                     1 => 0,

@@ -9,16 +9,22 @@
 //! Where the molecule has straight or flat parts (nitriles, alkynes, aromatic rings), distances do not hold it: bonds that go
 //! straight on are `collinear` then, and atoms in one plane `coplanar` ([`hold`]).
 //!
+//! Figures keep the side of stereocentres ([`chirality`]).
+//!
 //! Files in XYZ have no bonds: atoms are taken for bonded that are not further apart than their covalent radii (Cordero
 //! and others, Dalton Transactions 2008) and 0.45 Å, as Open Babel does.
 
+mod chirality;
 mod hold;
 mod pdb;
+mod skeleton;
 
 use super::{Figure, Format, Imported, Listed, Places as AllPlaces};
 use crate::complete::{Spare, Surplus};
-use crate::problem::{Decimal, Distance, Problem, Target};
+use crate::problem::{Decimal, Distance, Orientation, Problem, Target};
+use chirality::stereocentres;
 use hold::{Held, hold};
+pub use skeleton::{Conformer, Skeleton};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
@@ -401,6 +407,14 @@ pub fn read(bytes: &[u8], format: Format, index: usize) -> Result<Imported, Stri
     if let Some(bend) = bend(&problem) {
         problem.homotopy.bend = bend;
     }
+    let symbols: Vec<&str> = molecule.atoms.iter().map(|atom| atom.0).collect();
+    let signed = stereocentres(&symbols, &places, &bonds).into_iter();
+    problem.orientations = signed
+        .map(|(points, is_positive)| Orientation {
+            points: points.to_vec(),
+            is_positive,
+        })
+        .collect();
     let texts = molecule.atoms.iter().flat_map(|atom| atom.1);
     let epsilon = tolerance(texts);
     let spare = reading.left_out.iter().map(|&[a, b]| {
@@ -426,6 +440,7 @@ pub fn read(bytes: &[u8], format: Format, index: usize) -> Result<Imported, Stri
         problem,
         unsupported: BTreeMap::new(),
         surplus,
+        skeleton: Some(Skeleton::new(&symbols, &places, &bonds)),
         places: AllPlaces::Molecule(Places {
             format,
             lines: molecule.atoms.iter().map(|atom| atom.2).collect(),

@@ -8,7 +8,7 @@ use super::place::Stand;
 use super::segments::{NARROWER, Reversed, first_lost, is_same_by_constraint, segments, stop};
 use super::setting::Setting;
 use crate::blocks::Account;
-use crate::constraint::{Record, try_lower_editable};
+use crate::constraint::{Fault, Lowered, Owner, Record, try_lower_editable};
 use crate::interval::{Interval, enclose, hull, point};
 use crate::places::Each as _;
 use crate::problem::{Decimal, Problem, Target};
@@ -44,6 +44,17 @@ impl Whole {
         options: &Options,
         control: &mut Control,
     ) -> Result<Self, OpenError> {
+        let lower = |problem: &Problem| try_lower_editable(problem, None);
+        Self::open_lowered(problem, lower, options, control)
+    }
+
+    /// The same with the equations of constraints as `lower` makes them.
+    pub(super) fn open_lowered(
+        problem: &Problem,
+        lower: impl FnOnce(&Problem) -> Result<Lowered, (Owner, Fault)>,
+        options: &Options,
+        control: &mut Control,
+    ) -> Result<Self, OpenError> {
         let mut problem = problem.clone();
         problem.homotopy.bend_coefficient = Decimal::from(0);
         problem.homotopy.detour = Decimal::from(0);
@@ -51,8 +62,7 @@ impl Whole {
         let homotopy = if problem.is_distances_only() {
             Homotopy::new(&problem)?
         } else {
-            let lowered = super::lowered(&problem, |problem| try_lower_editable(problem, None))
-                .map_err(StartError::Unsupported)?;
+            let lowered = super::lowered(&problem, lower).map_err(StartError::Unsupported)?;
             record = Some(lowered.record);
             let mut homotopy =
                 Homotopy::with_constraints(&problem, typical_length(&problem), |_| lowered.tail)?;

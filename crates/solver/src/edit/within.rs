@@ -5,11 +5,12 @@ use super::open::OpenError;
 use super::setting::Setting;
 use super::whole::Whole;
 use crate::blocks::Account;
+use crate::constraint::try_lower_apart;
 use crate::elimination::invert;
 use crate::interval::{Interval, hull, point};
 use crate::problem::{Decimal, Problem, Target};
 use crate::system::Homotopy;
-use crate::track::{Control, Options};
+use crate::track::{Control, Options, StartError};
 use std::slice;
 
 /// Between which values a dimension is.
@@ -47,17 +48,17 @@ impl Within {
     /// the limits there is exactly one figure near it, which its dimensions lead to. `None`: that is not proved.
     ///
     /// Limits are those of distances between points and of constraints of which the right-hand side of each equation grows with the
-    /// value, or falls.
+    /// value, or falls, and is that of no other dimension ([`try_lower_apart`]).
     pub fn new(
         problem: &Problem,
         limits: &[Limits],
         options: &Options,
         control: &mut Control,
     ) -> Result<Option<Self>, OpenError> {
-        let mut whole = Whole::open_with(problem, options, control)?;
-        let head = problem.distances.len();
+        let mut whole = Whole::open_lowered(problem, try_lower_apart, options, control)?;
         let mut rights = rights(whole.homotopy());
         let mut growth = Vec::new();
+        let mut is_taken = vec![false; rights.len()];
         for one in limits {
             let mut ends = Vec::new();
             for value in &one.values {
@@ -67,7 +68,7 @@ impl Within {
                     target,
                 })?);
             }
-            let now = whole.rights_now(one.index < head);
+            let now = whole.rights_now();
             let [low, high] = [&ends[0], &ends[1]];
             let grown = (0..rights.len()).map(|e| high[e].mid() - low[e].mid());
             growth.push(grown.collect());
@@ -75,6 +76,13 @@ impl Within {
                 // Those that are not this dimension's stay what they are.
                 if low[e] != now[e] || high[e] != now[e] {
                     rights[e] = rights[e].convex_hull(low[e]).convex_hull(high[e]);
+                    if std::mem::replace(&mut is_taken[e], true) {
+                        let name = problem.dimension_name(one.index);
+                        let what = format!(
+                            "{name}: an equation has the number of another dimension with limits as well; give one of both none"
+                        );
+                        return Err(StartError::Unsupported(what).into());
+                    }
                 }
             }
         }
@@ -98,11 +106,12 @@ impl Within {
         let linear: Vec<Interval> = (0..m)
             .map(|i| -sum(row(i).iter().zip(&missed).map(|(&y, &f)| point(y) * f)))
             .collect();
-        let mut radius: Vec<f64> = linear
-            .iter()
-            .zip(&centre)
-            .map(|(x, c)| 1.1 * x.mag() + f64::EPSILON * (1.0 + c.abs()))
-            .collect();
+        let inflated = |images: &[Interval]| -> Vec<f64> {
+            let all = images.iter().zip(&centre);
+            all.map(|(x, c)| 1.1 * x.mag() + f64::EPSILON * (1.0 + c.abs()))
+                .collect()
+        };
+        let mut radius = inflated(&linear);
         let mut proved = None;
         for _ in 0..ROUNDS {
             let near = |i: usize| at(i) + hull(-radius[i], radius[i]);
@@ -128,11 +137,8 @@ impl Within {
                 proved = Some((image, rest));
                 break;
             }
-            radius = image
-                .iter()
-                .zip(&radius)
-                .map(|(x, r)| 1.1 * x.mag().max(*r))
-                .collect();
+            // What is within its radius is not made wider: others grow with it.
+            radius = inflated(&image);
         }
         // Beyond, equations have zeros that are no figures.
         let proved = proved.filter(|(around, _)| homotopy.is_proper_over(|i| at(i) + around[i]));
@@ -238,25 +244,24 @@ impl Within {
 impl Whole {
     /// The right-hand sides with another value of a dimension.
     fn rights_with(&mut self, setting: &Setting) -> Result<Vec<Interval>, OpenError> {
-        let refused = crate::track::StartError::Unsupported;
-        if setting.index < self.problem().distances.len() {
-            let now = self.problem().distances[setting.index].target.clone();
-            self.homotopy_mut().hold(setting.index, &setting.target);
-            let found = rights(self.homotopy());
-            self.homotopy_mut().hold(setting.index, &now);
-            return Ok(found);
-        }
         self.lead_constraints(slice::from_ref(setting))
-            .map_err(refused)?;
-        Ok(rights(self.homotopy()))
+            .map_err(StartError::Unsupported)?;
+        let distances = &self.problem().distances;
+        let now = distances.get(setting.index).map(|d| d.target.clone());
+        if now.is_some() {
+            self.homotopy_mut().hold(setting.index, &setting.target);
+        }
+        let found = rights(self.homotopy());
+        if let Some(now) = now {
+            self.homotopy_mut().hold(setting.index, &now);
+        }
+        Ok(found)
     }
 
     /// The right-hand sides as they are now.
-    fn rights_now(&mut self, is_distance: bool) -> Vec<Interval> {
-        if !is_distance {
-            // What an edit of nothing leads constraints to is what they are.
-            let _ = self.lead_constraints(&[]);
-        }
+    fn rights_now(&mut self) -> Vec<Interval> {
+        // What an edit of nothing leads constraints to is what they are.
+        let _ = self.lead_constraints(&[]);
         rights(self.homotopy())
     }
 }

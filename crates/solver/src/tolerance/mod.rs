@@ -201,8 +201,9 @@ pub fn limits(
     Ok(out)
 }
 
-/// Kinds of constraints, beside distances between points, of which the equation is linear in the value.
-const LINEAR: [&str; 7] = ["x", "y", "z", "dx", "dy", "dz", "radii"];
+/// Kinds of constraints, beside distances between points, of which the right-hand sides grow with the value or fall: what coordinates and radii
+/// are, and the cosine of an angle.
+const MONOTONE: [&str; 8] = ["x", "y", "z", "dx", "dy", "dz", "radii", "angles"];
 
 /// Whether limits make sense.
 fn check(problem: &Problem, limits: &Limits) -> Result<(), String> {
@@ -220,13 +221,18 @@ fn check(problem: &Problem, limits: &Limits) -> Result<(), String> {
         None => Ok(()),
         Some(at) => {
             let kind = problem.constraints[at].kind.as_str();
-            match LINEAR.contains(&kind) {
+            match MONOTONE.contains(&kind) {
+                true if kind == "angles" && !(low.is_positive() && high.to_f64() < 180.0) => {
+                    Err(format!(
+                        "{name}: an angle is between 0 and 180 degrees, and its limits are {low} and {high}"
+                    ))
+                }
                 true if kind == "radii" && !low.is_positive() => Err(format!(
                     "{name}: a radius must be greater than 0, and its limits go down to {low}"
                 )),
                 true => Ok(()),
                 false => Err(format!(
-                    "{name}: limits are taken of distances between points, of coordinates and of radii, not of `{kind}` yet: give it none"
+                    "{name}: limits are taken of distances between points, of coordinates, radii and angles, not of `{kind}` yet: give it none"
                 )),
             }
         }

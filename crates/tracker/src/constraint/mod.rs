@@ -236,6 +236,14 @@ pub fn try_lower_editable(
     )
 }
 
+/// The same from the sketch with each right-hand side that of one dimension alone, [`Lowering::with_dimensions_apart`]: as much as any of these
+/// is changed, together or not, no left-hand side is, and no right-hand side but its own.
+#[doc(hidden)]
+pub fn try_lower_apart(problem: &Problem) -> Result<Lowered, (Owner, Fault)> {
+    let low = Lowering::new(problem, Start::Sketch, true).with_dimensions_apart();
+    try_lower_from(problem, low, Which::Constraints)
+}
+
 /// Which equations are made.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Which {

@@ -91,6 +91,8 @@ pub struct Record {
     targets: Vec<Target>,
     leads: Vec<Real>,
     senses: Vec<bool>,
+    /// See [`Lowering::with_dimensions_apart`].
+    has_dimensions_apart: bool,
 }
 
 /// A finished lowering.
@@ -121,7 +123,7 @@ impl<'a> Lowering<'a> {
     /// Nothing yet. With `editable`, the left-hand sides will be the same whatever the values of dimensions are.
     pub fn new(problem: &'a Problem, from: Start<'a>, editable: bool) -> Self {
         let pairs = problem.distances.iter().enumerate();
-        Lowering {
+        let low = Lowering {
             problem,
             from,
             editable,
@@ -148,7 +150,19 @@ impl<'a> Lowering<'a> {
             numbers: HashMap::new(),
             assembled: None,
             objects: HashMap::new(),
+        };
+        match from {
+            Start::Dimensions(record) if record.has_dimensions_apart => low.with_dimensions_apart(),
+            _ => low,
         }
+    }
+
+    /// The same where no right-hand side has the numbers of two dimensions: a length that is a dimension of the problem is an unknown in
+    /// all equations but its own, so that the product of two lengths and a cosine is one of unknowns.
+    pub fn with_dimensions_apart(mut self) -> Self {
+        self.distances.clear();
+        self.record.has_dimensions_apart = true;
+        self
     }
 
     /// The same with vectors divided by their lengths, see `heading`: for t = 1 alone.
