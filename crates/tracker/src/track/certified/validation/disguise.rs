@@ -1,6 +1,6 @@
 //! Distances written as other equations: the same path, tracked and proved through the tail.
 
-use super::{Random, effort, random_problem};
+use super::{Random, boxes_meet, effort, random_problem};
 use crate::constraint::{
     Entry, Equation, Form, Product, Role, Tail, Unknown, coordinate, difference, value,
 };
@@ -44,6 +44,12 @@ impl Disguised {
     pub fn homotopy(&self) -> Option<Homotopy> {
         let unit = Homotopy::new(&self.plain).ok()?.unit;
         Homotopy::with_constraints(&self.rest, unit, |sketch| self.lower(sketch)).ok()
+    }
+
+    /// With the problem that is left.
+    pub fn with_homotopy(self) -> Option<(Problem, Homotopy)> {
+        let homotopy = self.homotopy()?;
+        Some((self.rest, homotopy))
     }
 
     fn lower(&self, sketch: &[[Interval; 3]]) -> Tail {
@@ -190,6 +196,19 @@ impl Disguised {
     }
 }
 
+/// The problem and its homotopy, every other time in other words.
+pub fn every_other_disguised(
+    round: usize,
+    problem: Problem,
+    random: &mut Random,
+) -> Option<(Problem, Homotopy)> {
+    if round % 4 < 2 {
+        let homotopy = Homotopy::new(&problem).ok()?;
+        return Some((problem, homotopy));
+    }
+    Disguised::new(&problem, 0.7, random).with_homotopy()
+}
+
 fn unknown(name: &str, role: Role, power: i32, flips: [bool; 3], sketch: Interval) -> Unknown {
     Unknown {
         name: name.to_owned(),
@@ -228,12 +247,9 @@ fn run_in(space: Space, homotopy: &Homotopy, reverse: bool) -> Outcome {
 
 /// Whether the solutions of two runs lie in boxes that meet, one by one and in their order.
 fn agree(one: &Outcome, other: &Outcome) -> bool {
-    let meets = |a: &Interval, b: &Interval| a.inf() <= b.sup() && b.inf() <= a.sup();
+    let mut pairs = one.solutions.iter().zip(&other.solutions);
     one.solutions.len() == other.solutions.len()
-        && one.solutions.iter().zip(&other.solutions).all(|(a, b)| {
-            let mut pairs = a.points.iter().flatten().zip(b.points.iter().flatten());
-            a.class == b.class && pairs.all(|(a, b)| meets(a, b))
-        })
+        && pairs.all(|(a, b)| a.class == b.class && boxes_meet(a, b))
 }
 
 /// Runs random problems and the same in other words, and compares.

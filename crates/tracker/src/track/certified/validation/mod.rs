@@ -1,5 +1,5 @@
-//! The proofs, checked against computations that share nothing with them: interval matrices filled
-//! straight from the homotopy, exact rationals, figures whose whole path is known, and sabotage.
+//! The proofs, checked against computations that share nothing with them: numbers of 256 bits from the problems' exact data,
+//! rationals, figures whose whole path is known, and sabotage.
 //!
 //! A test here that fails shows a claim that is false, or one that is made without a proof.
 
@@ -23,23 +23,18 @@ mod tubes;
 
 pub use faults::inject as inject_fault;
 
-use crate::equations::Form;
-use crate::places::Each as _;
 use crate::plan::testing;
-use along::{
-    at_sketch, chain, check_entry, leads_truly, link_is_true, middle, mirrored, sketch, slope,
-};
+use along::{at_sketch, chain, leads_truly, link_is_true, mirrored, sketch};
 
 use super::link::Tube;
 use crate::interval::rounding::{gamma, round_up};
 use crate::interval::{Interval, hull, point};
 use crate::linalg::{Matrix, Vector};
-use crate::problem::{Decimal, Problem};
+use crate::problem::{Decimal, Problem, Target};
 use crate::system::Homotopy;
 use crate::track::full::certified::KrawczykTest;
 use crate::track::full::{Equations, InverseMaker, Local, ORDER, Preconditioner, first_normal};
-use crate::track::{Control, Options, Space, Status, solve};
-use nalgebra::DMatrix;
+use crate::track::{Control, Options, Solution, Space, Status, solve};
 
 /// How far ẑ(s)_i, as [`Local::entry_at`] evaluates it in floats, may be from the exact value.
 fn evaluation_error<const N: usize, Y: Preconditioner>(
@@ -115,6 +110,31 @@ pub fn times_ten_to(x: &Decimal, exponent: i32) -> Option<Decimal> {
     format!("{mantissa}e{}", old.parse::<i32>().ok()? + exponent)
         .parse()
         .ok()
+}
+
+/// The same in another unit. `None`: out of range.
+pub fn scaled(problem: &Problem, exponent: i32) -> Option<Problem> {
+    let mut problem = problem.clone();
+    for point in &mut problem.points {
+        for x in &mut point.sketch {
+            *x = times_ten_to(x, exponent)?;
+        }
+    }
+    for distance in &mut problem.distances {
+        distance.target = match &distance.target {
+            Target::Length(length) => Target::Length(times_ten_to(length, exponent)?),
+            Target::SquaredLength(x) => Target::SquaredLength(times_ten_to(x, 2 * exponent)?),
+        };
+    }
+    let bend = &mut problem.homotopy.bend_coefficient;
+    *bend = times_ten_to(bend, exponent)?;
+    Some(problem)
+}
+
+/// Whether two solutions may have the same points.
+pub fn boxes_meet(a: &Solution, b: &Solution) -> bool {
+    let mut pairs = a.points.iter().flatten().zip(b.points.iter().flatten());
+    pairs.all(|(x, y)| !x.disjoint(*y))
 }
 
 /// A number with few digits, so that its decimal is what people would write.
@@ -210,150 +230,6 @@ pub fn closes(problem: &Problem, space: Space) -> bool {
     outcome.is_ok_and(|outcome| outcome.status == Status::Closed)
 }
 
-/// The homotopy in intervals, read off its own data rather than the trackers' arrays.
-pub struct Exact<'a> {
-    pub homotopy: &'a Homotopy,
-    pub m: usize,
-    pub n: usize,
-}
-
-pub type Rows = Vec<Vec<Interval>>;
-
-impl<'a> Exact<'a> {
-    pub fn new(homotopy: &'a Homotopy) -> Self {
-        Exact {
-            homotopy,
-            m: homotopy.equations,
-            n: homotopy.equations + 1,
-        }
-    }
-
-    /// A factor of a term: a difference of unknowns, or 1.
-    fn factor(&self, z: &[Interval], form: Form<Option<usize>>) -> Interval {
-        form.value(|entry| entry.map_or(point(0.0), |i| z[i]))
-    }
-
-    pub fn residual(&self, z: &[Interval]) -> Vec<Interval> {
-        (0..self.m)
-            .map(|e| {
-                let twice = self.homotopy.terms(e).iter().fold(point(0.0), |sum, term| {
-                    let (x, y) = (self.factor(z, term.left), self.factor(z, term.right));
-                    let product = if term.left == term.right {
-                        x.sqr()
-                    } else {
-                        x * y
-                    };
-                    sum + point(term.factor.into()) * product
-                });
-                twice * point(0.5) - self.homotopy.rights[e].enclose(z[self.m])
-            })
-            .collect()
-    }
-
-    /// J(z) with the row c below.
-    pub fn bordered(&self, z: &[Interval], c: &[f64]) -> Rows {
-        let t = z[self.m];
-        let mut rows: Rows = (0..self.m)
-            .map(|e| {
-                let mut row = self.homotopy.slopes(e, |i| z[i]);
-                let e = self.homotopy.rights[e].enclosures();
-                let [two, three, four] = [2.0, 3.0, 4.0].each(point);
-                row.push(-(e[1] + t * (two * e[2] + t * (three * e[3] + t * four * e[4]))));
-                row
-            })
-            .collect();
-        rows.push(c[..self.n].iter().map(|&c| point(c)).collect());
-        rows
-    }
-
-    /// Encloses the zero of F in the cross-section c·(z − through) = 0 that Newton's method finds
-    /// from `start`; with it an enclosure of the solution x of [J; c] x = (0, …, 0, 1).
-    ///
-    /// Krawczyk's test with another preconditioner than the trackers', the inverse at the point
-    /// itself, in intervals. `None`: it fails.
-    pub fn point_near(
-        &self,
-        start: &[f64],
-        c: &[f64],
-        through: &[Interval],
-    ) -> Option<(Vec<Interval>, Vec<Interval>)> {
-        let n = self.n;
-        let mut z = start[..n].to_vec();
-        let at = |z: &[f64]| z.iter().map(|&x| point(x)).collect::<Vec<_>>();
-        let defect = |z: &[Interval]| {
-            let mut g = self.residual(z);
-            let along = (0..n).fold(point(0.0), |sum, i| sum + point(c[i]) * (z[i] - through[i]));
-            g.push(along);
-            g
-        };
-        let mut inverse = DMatrix::zeros(n, n);
-        for _ in 0..8 {
-            let rows = self.bordered(&at(&z), c);
-            inverse = DMatrix::from_fn(n, n, |i, j| rows[i][j].mid()).try_inverse()?;
-            let g = defect(&at(&z));
-            for i in 0..n {
-                z[i] -= (0..n).map(|j| inverse[(i, j)] * g[j].mid()).sum::<f64>();
-            }
-        }
-        let times = |v: &[Interval]| -> Vec<Interval> {
-            (0..n)
-                .map(|i| (0..n).fold(point(0.0), |sum, j| sum + point(inverse[(i, j)]) * v[j]))
-                .collect()
-        };
-        let centre = at(&z);
-        let step = times(&defect(&centre));
-        let size = z.iter().fold(0.0f64, |max, x| max.max(x.abs()));
-        let mut radius: Vec<f64> = step.iter().map(|x| 2.0 * x.mag() + 1e-16 * size).collect();
-        for _ in 0..6 {
-            let around: Vec<Interval> = (0..n)
-                .map(|i| hull(z[i] - radius[i], z[i] + radius[i]))
-                .collect();
-            let contraction = self.identity_minus(&inverse, &self.bordered(&around, c));
-            let image: Vec<Interval> = (0..n)
-                .map(|i| {
-                    let rest = (0..n).fold(point(0.0), |sum, j| {
-                        sum + contraction[i][j] * (around[j] - centre[j])
-                    });
-                    centre[i] - step[i] + rest
-                })
-                .collect();
-            if (0..n).all(|i| image[i].interior(around[i])) {
-                // x = C e_n + (I − C [J; c]) x, and |I − C [J; c]| < 1 in the largest row sum.
-                let norm = contraction
-                    .iter()
-                    .map(|row| row.iter().fold(point(0.0), |sum, x| sum + x.abs()).sup())
-                    .fold(0.0, f64::max);
-                if norm >= 0.5 {
-                    return None;
-                }
-                let x: Vec<f64> = (0..n).map(|i| inverse[(i, n - 1)]).collect();
-                let largest = x.iter().fold(0.0f64, |max, x| max.max(x.abs()));
-                let error = (point(norm) * point(largest) / (point(1.0) - point(norm))).sup();
-                return Some((
-                    image,
-                    x.iter().map(|&x| hull(x - error, x + error)).collect(),
-                ));
-            }
-            radius.iter_mut().for_each(|r| *r *= 3.0);
-        }
-        None
-    }
-
-    fn identity_minus(&self, inverse: &DMatrix<f64>, rows: &Rows) -> Rows {
-        let n = self.n;
-        (0..n)
-            .map(|i| {
-                (0..n)
-                    .map(|j| {
-                        let one = point(if i == j { 1.0 } else { 0.0 });
-                        (0..n).fold(one, |sum, k| sum - point(inverse[(i, k)]) * rows[k][j])
-                    })
-                    .collect()
-            })
-            .collect()
-    }
-}
-
 /// A proved tube, and its A.
 #[derive(Clone)]
 pub struct Sample {
@@ -362,14 +238,6 @@ pub struct Sample {
 }
 
 impl Sample {
-    /// A lower bound of |v|_u.
-    pub fn norm(&self, v: &[Interval]) -> f64 {
-        v.iter()
-            .zip(self.tube.weights.iter())
-            .map(|(v, &u)| (v.abs() / point(u)).inf())
-            .fold(0.0, f64::max)
-    }
-
     pub fn normal(&self) -> &[f64] {
         &self.tube.local.normal
     }

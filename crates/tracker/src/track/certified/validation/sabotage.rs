@@ -1,5 +1,6 @@
 //! Chains that must not hold: other branches, left out tubes, wrong directions.
 
+use super::precise::Figure;
 use super::*;
 
 #[derive(Debug, Default)]
@@ -13,15 +14,15 @@ struct Tally {
 
 fn sabotage(problem: &Problem, random: &mut Random, tally: &mut Tally) {
     let homotopy = Homotopy::new(problem).unwrap();
-    let exact = Exact::new(&homotopy);
+    let figure = Figure::new(problem, &homotopy);
     let mut workshop = Workshop::new(&homotopy, f64::INFINITY);
     let chain = workshop.chain(&homotopy, 400);
-    let n = exact.n;
+    let n = figure.n;
     let stride = (chain.len() / 40).max(1);
     for k in (0..chain.len() - 1).step_by(stride) {
         let (from, next) = (&chain[k], &chain[k + 1]);
         assert!(link_is_true(
-            &exact,
+            &figure,
             &from.tube,
             &next.tube,
             next.tube.entry
@@ -44,7 +45,7 @@ fn sabotage(problem: &Problem, random: &mut Random, tally: &mut Tally) {
         workshop.weights.copy_from_slice(&next.tube.weights);
         let image = workshop.tube(&mirrored(&homotopy, z), &mirrored(&homotopy, normal), 1);
         if let Some(image) = image {
-            leads_truly(&exact, &from.tube, &image.tube);
+            leads_truly(&figure, &from.tube, &image.tube);
             tally.mirrored += 1;
         }
 
@@ -71,7 +72,7 @@ fn sabotage(problem: &Problem, random: &mut Random, tally: &mut Tally) {
             let normal = local.normal[..n].to_vec();
             workshop.weights.copy_from_slice(&next.tube.weights);
             let other = workshop.tube(&start, &normal, 2);
-            if other.is_some_and(|other| !leads_truly(&exact, &from.tube, &other.tube)) {
+            if other.is_some_and(|other| !leads_truly(&figure, &from.tube, &other.tube)) {
                 tally.branches += 1;
             }
         }
@@ -80,7 +81,7 @@ fn sabotage(problem: &Problem, random: &mut Random, tally: &mut Tally) {
         tally.pairs += chain.len();
         let others = chain.iter();
         tally.linked_pairs += others
-            .filter(|other| leads_truly(&exact, &from.tube, &other.tube))
+            .filter(|other| leads_truly(&figure, &from.tube, &other.tube))
             .count();
     }
 }

@@ -1,7 +1,7 @@
 //! The homotopy in 256 bits, from the problem's decimals.
 
 use super::big::{Big, Rows, dot, exact, solve};
-use crate::equations::{Form, left_side, slopes};
+use crate::equations::{Form, Halved as _, left_side, slopes};
 use crate::places::Each as _;
 use crate::problem::{Problem, Target};
 use crate::rational::Rational;
@@ -24,6 +24,26 @@ fn at(z: &[Big]) -> impl Fn(Option<usize>) -> Big {
 impl Figure {
     /// Of a problem, lengths being measured in the homotopy's unit.
     pub fn new(problem: &Problem, homotopy: &Homotopy) -> Self {
+        Self::of(problem, homotopy, |from, to, c| {
+            let slope = to - &from + &c;
+            [from, slope, -c]
+        })
+    }
+
+    /// The same with the target lengths at every t.
+    pub fn at_target(problem: &Problem, homotopy: &Homotopy) -> Self {
+        let nothing = Big::of(0.0);
+        Self::of(problem, homotopy, |_, to, _| {
+            [to, nothing.clone(), nothing.clone()]
+        })
+    }
+
+    /// With lengths a₀ + a₁ t + a₂ t² made of those in the sketch, at the target, and the coefficient of the bend.
+    fn of(
+        problem: &Problem,
+        homotopy: &Homotopy,
+        length: impl Fn(Big, Big, Big) -> [Big; 3],
+    ) -> Self {
         let unit = Big::of(homotopy.unit);
         let lengths = problem.distances.iter().enumerate().map(|(e, distance)| {
             let [a, b] = distance.points.each(|p| &problem.points[p].sketch);
@@ -41,8 +61,7 @@ impl Figure {
             } else {
                 Big::of(0.0)
             };
-            let a1 = target / &unit - &a0 + &c;
-            let a2 = -c;
+            let [a0, a1, a2] = length(a0, target / &unit, c);
             let half = Big::of(0.5);
             [
                 &half * &(&a0 * &a0),
@@ -83,6 +102,14 @@ impl Figure {
             left - right
         };
         (0..self.m).map(row).collect()
+    }
+
+    /// What the terms of one left-hand side add up to without their signs.
+    pub fn size(&self, e: usize, z: &[Big]) -> Big {
+        let terms = self.terms[e].iter();
+        terms
+            .map(|term| term.value(at(z)).halves(term.factor).abs())
+            .sum()
     }
 
     /// J.

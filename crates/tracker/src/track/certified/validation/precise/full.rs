@@ -6,8 +6,6 @@ use super::reduced::{check_time, within};
 use super::*;
 use crate::generate::Family;
 use crate::interval::rounding::round_up;
-use crate::linalg::Vector;
-use crate::track::certified::link::Ball;
 use crate::track::full::certified::norms::Norms;
 
 /// Ỹ(s) of `tube.rs`, its matrices taken for exact.
@@ -122,6 +120,26 @@ fn check_norms(
     ratios.check("|c|", &dot(&c, &exact(u)), round_up(norms.normal, n + 2));
 }
 
+/// What a proof says of the path's point at a parameter, and of its direction there: the point, and t'.
+pub fn check_point(
+    figure: &Figure,
+    tube: &Tube,
+    place: f64,
+    ratios: &mut Ratios,
+) -> Option<(Vec<Big>, Big)> {
+    let (n, proof) = (figure.n, &tube.proof);
+    let (u, c) = (&tube.weights[..n], &tube.local.normal[..n]);
+    let (through, slope) = at(tube, &Big::of(place));
+    let (z, tangent) = figure.point_near(&through, c)?;
+    let away: Vec<Big> = z.iter().zip(&through).map(|(z, x)| z - x).collect();
+    ratios.check("distance", &norm(u, &away), proof.distance);
+    let advance = dot(&exact(c), &slope);
+    let turned: Vec<Big> = (0..n).map(|i| &tangent[i] * &advance - &slope[i]).collect();
+    ratios.check("slope_distance", &norm(u, &turned), proof.slope_distance);
+    let rate = &tangent[n - 1] * &advance;
+    Some((z, rate))
+}
+
 /// What a proof says of the path: its point, its direction, its t, where it is found.
 pub fn check_path(
     figure: &Figure,
@@ -130,17 +148,10 @@ pub fn check_path(
     ratios: &mut Ratios,
 ) -> Option<()> {
     let (n, tube) = (figure.n, &sample.tube);
-    let (proof, u, c) = (&tube.proof, &tube.weights[..n], &sample.normal()[..n]);
+    let (proof, u) = (&tube.proof, &tube.weights[..n]);
     let place = parameter(random, proof.h);
     let s = Big::of(place);
-    let (through, slope) = at(tube, &s);
-    let (z, tangent) = figure.point_near(&through, c)?;
-    let away: Vec<Big> = z.iter().zip(&through).map(|(z, x)| z - x).collect();
-    ratios.check("distance", &norm(u, &away), proof.distance);
-    let advance = dot(&exact(c), &slope);
-    let turned: Vec<Big> = (0..n).map(|i| &tangent[i] * &advance - &slope[i]).collect();
-    ratios.check("slope_distance", &norm(u, &turned), proof.slope_distance);
-    let rate = &tangent[n - 1] * &advance;
+    let (z, rate) = check_point(figure, tube, place, ratios)?;
     check_time(
         &tube.time(),
         (place, proof.h),
@@ -155,24 +166,18 @@ pub fn check_path(
         &norm_of(u, &contraction(figure, sample, (&y, &s), &w)),
         proof.q,
     );
-    let mut ball = Ball {
-        centre: tube.exit.centre.clone(),
-        radius: tube.exit.radius.clone(),
-        low: Vector::zeros(n + 1),
-    };
-    for i in 0..n {
-        ball.centre[i] = z[i].to_f64();
-        let mut left = &z[i] - &Big::of(ball.centre[i]);
-        if tube.local.is_extended {
-            ball.low[i] = left.to_f64();
-            left -= Big::of(ball.low[i]);
-        }
-        ball.radius[i] = left.abs().to_f64().next_up();
-    }
-    if let Some(between) = tube.locate(&ball) {
+    if let Some(between) = tube.locate(&ball_at(tube, &z)) {
         within("its own parameter", &s, between, ratios);
     }
     Some(())
+}
+
+/// A point, and the ball that it is said to be in.
+pub fn check_ball(name: &'static str, z: &[Big], ball: &Ball, ratios: &mut Ratios) {
+    for (i, z) in z.iter().enumerate() {
+        let away = z - &Big::of(ball.centre[i]) - Big::of(ball.low[i]);
+        ratios.check(name, &away.abs(), ball.radius[i]);
+    }
 }
 
 /// The exit's box, also as tight as it gets, with the tangent; and the next tube's entry.
@@ -189,11 +194,9 @@ pub fn check_exit(
     workshop
         .test
         .tighten_exit(&workshop.equations, &mut tight)?;
+    check_ball("exit", &z, &sample.tube.exit, ratios);
+    check_ball("tight exit", &z, &tight.exit, ratios);
     for i in 0..n {
-        let away = |b: &Ball| (&z[i] - &Big::of(b.centre[i]) - Big::of(b.low[i])).abs();
-        let (exit, tight_exit) = (&sample.tube.exit, &tight.exit);
-        ratios.check("exit", &away(exit), exit.radius[i]);
-        ratios.check("tight exit", &away(tight_exit), tight_exit.radius[i]);
         let turned = (&x[i] - &Big::of(tight.exit_slope[i])).abs();
         let bound = round_up(tight.exit_slope_radius * tight.weights[i], 1);
         ratios.check("tight tangent", &turned, bound);
