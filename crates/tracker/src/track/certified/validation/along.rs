@@ -68,30 +68,3 @@ pub fn mirrored(homotopy: &Homotopy, v: &[f64]) -> Vec<f64> {
     let entry = |i: usize| if is_turned(i) { -v[i] } else { v[i] };
     (0..=m).map(entry).collect()
 }
-
-/// Linked tubes from a first one on, at most `count`, each tried at most so many half lengths behind the exit of the one before:
-/// `next` makes one at a point, with a normal, to which the last one leads. `room` is for points.
-pub fn chain<S, const N: usize, Y: Preconditioner>(
-    first: S,
-    (count, reach): (usize, f64),
-    room: Vector,
-    tube: impl Fn(&S) -> &Tube<N, Y>,
-    mut next: impl FnMut(&S, &[f64], &[f64]) -> Option<S>,
-) -> Vec<S> {
-    let (mut z, mut normal) = (room.clone(), room);
-    let (mut chain, mut trust) = (vec![first], 1.0f64);
-    while chain.len() < count && trust > 1e-6 {
-        let last = &chain[chain.len() - 1];
-        let from = tube(last);
-        let advance = from.exit_at + reach * trust * from.proof.h;
-        from.local.predict(advance, None, &mut z, &mut normal);
-        match next(last, &z, &normal) {
-            Some(next) => {
-                chain.push(next);
-                trust = (1.5 * trust).min(1.0);
-            }
-            None => trust *= 0.6,
-        }
-    }
-    chain
-}

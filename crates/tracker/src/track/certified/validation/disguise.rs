@@ -100,19 +100,17 @@ impl Disguised {
                 .collect()
         };
         let right = half_square(length);
-        let mut push = |products: Vec<Product>, right: Vec<Real>, power: i32| {
-            let name = self.plain.distance_name(0);
-            let equation = Equation {
-                name,
+        let say = |tail: &mut Tail, products: Vec<Product>, right: Vec<Real>, power: i32| {
+            tail.equations.push(Equation {
+                name: self.plain.distance_name(0),
                 products,
                 right,
                 power,
-            };
-            tail.equations.push(equation);
+            });
         };
         match kind {
             // The same, but not as a distance.
-            0 => push(squares(&forms), right.clone(), 2),
+            0 => say(tail, squares(&forms), right.clone(), 2),
             // Added to the one before: E + E' = |p|² / 2 + …
             1 if before.is_some() => {
                 let (others, other) = before.as_ref().expect("one before");
@@ -121,7 +119,7 @@ impl Disguised {
                     let zero = Real::zero();
                     right.get(k).unwrap_or(&zero) + other.get(k).unwrap_or(&zero)
                 });
-                push(products, sum.collect(), 2);
+                say(tail, products, sum.collect(), 2);
             }
             // With a radius: |p|² − r² = 0, r = a(t).
             2 => {
@@ -134,22 +132,9 @@ impl Disguised {
                 let r = value(Entry::Unknown(k));
                 let mut products = squares(&forms);
                 products.push(Product::new(-1, r, r));
-                let add = |tail: &mut Tail, products, right, power| {
-                    let name = "radius".to_owned();
-                    tail.equations.push(Equation {
-                        name,
-                        products,
-                        right,
-                        power,
-                    });
-                };
-                add(tail, products, vec![Real::zero()], 2);
-                add(
-                    tail,
-                    vec![Product::new(2, r, Form::One)],
-                    length.to_vec(),
-                    1,
-                );
+                say(tail, products, vec![Real::zero()], 2);
+                let twice = vec![Product::new(2, r, Form::One)];
+                say(tail, twice, length.to_vec(), 1);
             }
             // With a vector of its own: w = p_i − p_j, twisted so that products have different factors.
             3 => {
@@ -164,32 +149,20 @@ impl Disguised {
                         Product::new(2, w, Form::One),
                         Product::new(-2, forms[axis], Form::One),
                     ];
-                    let name = "w".to_owned();
-                    tail.equations.push(Equation {
-                        name,
-                        products,
-                        right: vec![Real::zero()],
-                        power: 1,
-                    });
+                    say(tail, products, vec![Real::zero()], 1);
                 }
                 let w = |axis: usize| value(Entry::Unknown(first + axis));
                 let products = (0..d)
                     .map(|axis| Product::new(1, w(axis), forms[axis]))
                     .collect();
-                let name = "w w".to_owned();
-                tail.equations.push(Equation {
-                    name,
-                    products,
-                    right: right.clone(),
-                    power: 2,
-                });
+                say(tail, products, right.clone(), 2);
             }
             // As (x − y)(x + y) would be: three times the first axis, less it twice.
             _ => {
                 let mut products = squares(&forms);
                 products.push(Product::new(3, forms[0], forms[0]));
                 products.push(Product::new(-3, forms[0], forms[0]));
-                push(products, right.clone(), 2);
+                say(tail, products, right.clone(), 2);
             }
         }
         *before = Some((squares(&forms), right));

@@ -3,12 +3,9 @@
 use super::precise::big::Big;
 use super::precise::full::{check_ball, check_point};
 use super::precise::{Figure, Ratios, ball_at};
-use super::solutions::exact_solution;
 use super::*;
 use crate::places::Each as _;
-use crate::track::certified::solution::SolutionProver;
 use crate::track::certified::tracker::Test;
-use crate::track::{Control, Options, solve};
 
 /// A refined point of the path at the sketch with its expansion, in extended precision.
 fn around_sketch(homotopy: &Homotopy, workshop: &mut Workshop) -> Option<Tube> {
@@ -141,17 +138,12 @@ fn tubes(problem: &Problem, random: &mut Random, tally: &mut Tally) {
             _ => (0..n).for_each(|i| local.low[i] += change[i]),
         }
         let max_h = 10f64.powf(random.between(-10.0, -3.0));
-        let mut weights = workshop.weights.clone();
-        let proof = workshop
-            .test
-            .prove(&workshop.equations, &tube.local, &mut weights, max_h);
-        let Some(proof) = proof else {
+        let weights = workshop.test.weights_mut().clone();
+        if !workshop.prove_as_it_is(&mut tube, weights, max_h) {
             tally.refused += 1;
             continue;
-        };
-        tube.proof = proof;
-        tube.weights.copy_from_slice(workshop.test.weights());
-        tube.exit_at = 0.97 * proof.h;
+        }
+        let proof = tube.proof;
         if case == 0 {
             // Rounding is relative to h.
             assert!(proof.distance < 1e-9 * proof.h + 1e-25, "{proof:?}");
@@ -194,45 +186,6 @@ fn tubes_are_true_whatever_the_low_words() {
         tally.sabotaged > 20 && tally.refused > 5 && tally.located > 20,
         "{tally:?}"
     );
-}
-
-#[test]
-fn boxes_of_solutions_hold_them() {
-    for problem in shipped().iter().filter(|p| p.dimension == 3).take(2) {
-        let homotopy = Homotopy::new(problem).unwrap();
-        let mut equations = Equations::new(&homotopy);
-        equations.extend(&homotopy);
-        let mut inverter = equations.inverter();
-        let mut prover = SolutionProver::new(&homotopy, &equations);
-        let outcome = solve(problem, &Options::certified(), &mut Control::default()).unwrap();
-        assert!(!outcome.solutions.is_empty());
-        for solution in &outcome.solutions {
-            let x = exact_solution(problem, &homotopy, &solution.points).unwrap();
-            let mut guess = equations.vector();
-            for (v, &place) in homotopy.gauge.place.iter().enumerate() {
-                let middle = solution.points[place / 3][place % 3].mid();
-                guess[v] = middle / homotopy.unit + 1e-9;
-            }
-            let found = prover
-                .prove(&equations, &mut inverter, &guess, true)
-                .unwrap();
-            for (v, &place) in homotopy.gauge.place.iter().enumerate() {
-                let centre = sum_of(found.figure.centre[v], found.figure.low[v]);
-                let off = &x[place / 3][place % 3] / &Big::of(homotopy.unit) - centre;
-                assert!(off.abs() <= Big::of(found.figure.radius[v]));
-                assert!(
-                    found.figure.radius[v] < 1e-26,
-                    "{:e}",
-                    found.figure.radius[v]
-                );
-            }
-            for (point, x) in found.points(&homotopy).iter().zip(&x) {
-                for (point, x) in point.iter().zip(x) {
-                    assert!(Big::of(point.inf()) <= *x && *x <= Big::of(point.sup()));
-                }
-            }
-        }
-    }
 }
 
 /// Room that was used in extended precision is used again in 53 bits: nothing of the low words may be left.
@@ -285,19 +238,6 @@ fn compare(figure: &Figure, tube: &Tube) -> (f64, f64) {
     (ratios.largest("distance"), ratios.largest("slope_distance"))
 }
 
-/// Proves a tube around `local` as it is, at most `max_h` long.
-fn prove_as_it_is(workshop: &mut Workshop, tube: &mut Tube, max_h: f64) -> bool {
-    let mut weights = workshop.weights.clone();
-    workshop.test.precision.extended = true;
-    let (test, equations) = (&mut workshop.test, &workshop.equations);
-    let Some(proof) = test.prove(equations, &tube.local, &mut weights, max_h) else {
-        return false;
-    };
-    tube.proof = proof;
-    tube.weights.copy_from_slice(workshop.test.weights());
-    true
-}
-
 /// Lengths known less well than they are: the middle is then off by as much as order 0 of F may be.
 fn blurred(problem: &Problem, random: &mut Random) -> Option<(f64, f64)> {
     let homotopy = Homotopy::new(problem).unwrap();
@@ -309,11 +249,12 @@ fn blurred(problem: &Problem, random: &mut Random) -> Option<(f64, f64)> {
     extended.blur(|_| size * random.sign());
     let mut tube = around_sketch(&homotopy, &mut workshop)?;
     let max_h = 10f64.powf(random.between(-10.0, -4.0));
-    if !prove_as_it_is(&mut workshop, &mut tube, max_h) {
+    workshop.test.precision.extended = true;
+    let weights = workshop.test.weights_mut().clone();
+    if !workshop.prove_as_it_is(&mut tube, weights, max_h) {
         return None;
     }
     let used = compare(&figure, &tube);
-    tube.exit_at = 0.97 * tube.proof.h;
     let test = &mut workshop.test;
     if test.tighten_exit(&workshop.equations, &mut tube).is_some() {
         let ratios = &mut Ratios::default();
@@ -339,7 +280,9 @@ fn rough(problem: &Problem, random: &mut Random) -> Option<(f64, f64)> {
     }
     tube.local.expand(&workshop.equations);
     let max_h = 10f64.powf(random.between(-10.0, -4.0));
-    if !prove_as_it_is(&mut workshop, &mut tube, max_h) {
+    workshop.test.precision.extended = true;
+    let weights = workshop.test.weights_mut().clone();
+    if !workshop.prove_as_it_is(&mut tube, weights, max_h) {
         return None;
     }
     Some(compare(&figure, &tube))

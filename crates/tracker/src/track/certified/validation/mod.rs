@@ -24,9 +24,10 @@ mod tubes;
 pub use faults::inject as inject_fault;
 
 use crate::plan::testing;
-use along::{at_sketch, chain, leads_truly, link_is_true, mirrored, sketch};
+use along::{at_sketch, leads_truly, link_is_true, mirrored, sketch};
 
 use super::link::Tube;
+use super::tracker::Test;
 use crate::interval::rounding::{gamma, round_up};
 use crate::interval::{Interval, hull, point};
 use crate::linalg::{Matrix, Vector};
@@ -34,6 +35,7 @@ use crate::problem::{Decimal, Problem, Target};
 use crate::system::Homotopy;
 use crate::track::full::certified::KrawczykTest;
 use crate::track::full::{Equations, InverseMaker, Local, ORDER, Preconditioner, first_normal};
+use crate::track::reduced::certified::{Bounds, COEFFICIENTS, ReducedTest};
 use crate::track::{Control, Options, Solution, Space, Status, solve};
 
 /// How far ẑ(s)_i, as [`Local::entry_at`] evaluates it in floats, may be from the exact value.
@@ -49,20 +51,17 @@ fn evaluation_error<const N: usize, Y: Preconditioner>(
     round_up(gamma(4 * N) * size, 4 * N)
 }
 
-/// SplitMix64 (Steele, Lea, Flood 2014): the same numbers in every run.
-pub struct Random(u64);
+/// The same numbers in every run.
+pub struct Random(crate::random::Random);
 
 impl Random {
     pub fn new(seed: u64) -> Self {
-        Random(seed + 1000 * from_environment("KRAWL_SEED").unwrap_or(0))
+        let seed = seed + 1000 * from_environment("KRAWL_SEED").unwrap_or(0);
+        Random(crate::random::Random::new(seed))
     }
 
     pub fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
+        self.0.bits()
     }
 
     /// Uniform in [0, 1).
@@ -230,96 +229,148 @@ pub fn closes(problem: &Problem, space: Space) -> bool {
     outcome.is_ok_and(|outcome| outcome.status == Status::Closed)
 }
 
-/// A proved tube, and its A.
-#[derive(Clone)]
-pub struct Sample {
-    pub tube: Tube,
-    pub a: Matrix,
+/// A test, and what its proofs are made of that tubes do not keep.
+pub trait Stated<const N: usize>: Test<N> {
+    /// Of one proof.
+    type Kept: Clone;
+
+    /// Of the last one.
+    fn kept(&self) -> Self::Kept;
 }
 
-impl Sample {
+/// A of the tube.
+impl Stated<{ ORDER + 1 }> for KrawczykTest {
+    type Kept = Matrix;
+
+    fn kept(&self) -> Matrix {
+        self.moving_matrix().clone()
+    }
+}
+
+/// The bounds, and what bounds Φ(0) row by row.
+impl Stated<COEFFICIENTS> for ReducedTest {
+    type Kept = (Bounds, Vec<f64>);
+
+    fn kept(&self) -> (Bounds, Vec<f64>) {
+        (*self.stated(), self.defect().to_vec())
+    }
+}
+
+/// A proved tube, and what its proof was made of.
+#[derive(Clone)]
+pub struct Proved<const N: usize, T: Stated<N>> {
+    pub tube: Tube<N, T::Frame>,
+    pub kept: T::Kept,
+}
+
+impl<const N: usize, T: Stated<N>> Proved<N, T> {
     pub fn normal(&self) -> &[f64] {
         &self.tube.local.normal
     }
 }
 
 /// What is needed to make tubes by hand.
-pub struct Workshop {
+pub struct Maker<const N: usize, T: Stated<N>> {
     pub equations: Equations,
     pub inverter: InverseMaker,
-    pub test: KrawczykTest,
-    pub weights: Vector,
+    pub test: T,
     pub max_h: f64,
 }
 
-impl Workshop {
+/// In the full space.
+pub type Sample = Proved<{ ORDER + 1 }, KrawczykTest>;
+pub type Workshop = Maker<{ ORDER + 1 }, KrawczykTest>;
+
+/// In the reduced space.
+pub type ReducedTube = Tube<COEFFICIENTS, <ReducedTest as Test<COEFFICIENTS>>::Frame>;
+pub type ReducedSample = Proved<COEFFICIENTS, ReducedTest>;
+pub type Shop = Maker<COEFFICIENTS, ReducedTest>;
+
+impl<const N: usize, T: Stated<N>> Maker<N, T> {
     pub fn new(homotopy: &Homotopy, max_h: f64) -> Self {
+        Self::with_alpha(homotopy, Options::certified().alpha, max_h)
+    }
+
+    pub fn with_alpha(homotopy: &Homotopy, alpha: f64, max_h: f64) -> Self {
         let equations = Equations::new(homotopy);
-        let n = equations.n();
-        let mut weights = equations.vector();
-        weights[..n].fill(1.0);
-        Workshop {
+        let options = Options {
+            space: T::SPACE,
+            alpha,
+            ..Options::certified()
+        };
+        Maker {
             inverter: equations.inverter(),
-            test: KrawczykTest::new(&equations, 1),
-            weights,
+            test: T::new(homotopy, &equations, &options),
             equations,
             max_h,
         }
     }
 
-    /// A proved tube at the point and with the normal given, after a number of rounds for the weights.
-    pub fn tube(&mut self, z: &[f64], normal: &[f64], rounds: usize) -> Option<Sample> {
+    /// A proved tube at the point and with the normal given; `first`: after some rounds for what is found by proving.
+    pub fn tube(&mut self, z: &[f64], normal: &[f64], first: bool) -> Option<Proved<N, T>> {
         let n = self.equations.n();
         let mut tube = Tube::new(&self.equations);
         tube.local.z[0][..n].copy_from_slice(&z[..n]);
         tube.local.normal[..n].copy_from_slice(&normal[..n]);
-        let (equations, inverter) = (&self.equations, &mut self.inverter);
-        match self.test.precision.extended {
-            true => tube.local.refine_extended(equations, inverter),
-            false => tube.local.refine(equations, inverter, 1e-9, 8),
+        let (test, equations) = (&mut self.test, &self.equations);
+        test.refine(equations, &mut tube.local, 1e-9).ok()?;
+        test.expand(equations, &mut tube.local).ok()?;
+        if first {
+            test.prepare(equations, &mut tube, self.max_h);
         }
-        .ok()?;
-        tube.local.expand(&self.equations);
-        let mut proof = None;
-        for _ in 0..rounds {
-            proof = self
-                .test
-                .prove(&self.equations, &tube.local, &mut self.weights, self.max_h);
+        if !test.prove(equations, &mut tube, self.max_h) {
+            return None;
         }
-        tube.proof = proof?;
-        tube.weights.copy_from_slice(self.test.weights());
+        let kept = test.kept();
         tube.exit_at = 0.97 * tube.proof.h;
-        self.test.enclose_exit(&self.equations, &mut tube)?;
-        Some(Sample {
-            tube,
-            a: self.test.moving_matrix().clone(),
-        })
+        test.enclose_exit(equations, &mut tube)?;
+        test.accept(&tube);
+        Some(Proved { tube, kept })
     }
 
-    /// Linked tubes from the sketch on, at most `count`.
-    pub fn chain(&mut self, homotopy: &Homotopy, count: usize) -> Vec<Sample> {
+    /// Linked tubes from the sketch on, at most `count`, each tried so many half lengths behind the exit of the one before.
+    pub fn chain(&mut self, homotopy: &Homotopy, count: usize) -> Vec<Proved<N, T>> {
+        const REACH: f64 = 0.85;
         let first = at_sketch(homotopy, &self.equations, &mut self.inverter)
-            .and_then(|local| self.tube(&local.z[0], &local.normal, 4));
-        let Some(first) = first else {
-            return Vec::new();
-        };
-        let room = self.equations.vector();
-        chain(
-            first,
-            (count, 0.9),
-            room,
-            |sample| &sample.tube,
-            |last, z, normal| {
-                let kept = self.weights.clone();
-                let next = self.tube(z, normal, 1).and_then(|mut next| {
-                    next.tube.entry = last.tube.leads_to(&next.tube)?;
-                    Some(next)
-                });
-                if next.is_none() {
-                    self.weights = kept;
+            .and_then(|local| self.tube(&local.z[0], &local.normal, true));
+        let mut chain: Vec<_> = first.into_iter().collect();
+        let [mut z, mut normal] = [0, 1].map(|_| self.equations.vector());
+        let mut trust = 1.0f64;
+        while let Some(Proved { tube: last, .. }) = chain.last()
+            && chain.len() < count
+            && trust > 1e-6
+        {
+            let advance = last.exit_at + REACH * trust * last.proof.h;
+            last.local.predict(advance, None, &mut z, &mut normal);
+            let next = self.tube(&z, &normal, false).and_then(|mut next| {
+                next.tube.entry = last.leads_to(&next.tube)?;
+                Some(next)
+            });
+            match next {
+                Some(next) => {
+                    chain.push(next);
+                    trust = (1.5 * trust).min(1.0);
                 }
-                next
-            },
-        )
+                None => {
+                    self.test.reject();
+                    trust *= 0.6;
+                }
+            }
+        }
+        chain
+    }
+}
+
+impl Workshop {
+    /// Proves a tube around its middle as it is, with these weights and at most so long: whether that was possible.
+    pub fn prove_as_it_is(&mut self, tube: &mut Tube, mut weights: Vector, max_h: f64) -> bool {
+        let (test, equations) = (&mut self.test, &self.equations);
+        let proof = test.prove(equations, &tube.local, &mut weights, max_h);
+        if let Some(proof) = proof {
+            tube.proof = proof;
+            tube.weights.copy_from_slice(test.weights());
+            tube.exit_at = 0.97 * proof.h;
+        }
+        proof.is_some()
     }
 }

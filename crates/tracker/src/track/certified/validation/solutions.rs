@@ -7,7 +7,7 @@ use crate::track::{Control, Options, Outcome, Status, solve};
 
 /// The solution near the middles of a figure's boxes, far beyond the precision of floats: all points, from the problem's own
 /// decimals.
-pub fn exact_solution(
+fn exact_solution(
     problem: &Problem,
     homotopy: &Homotopy,
     boxes: &[[Interval; 3]],

@@ -37,22 +37,16 @@ fn check_problem(
         // What is provable is provable for shorter tubes, unless so short that rounding drowns
         // the direction.
         for factor in [0.999, 0.5, 0.01, 1e-4] {
-            let mut weights = sample.tube.weights.clone();
-            let h = factor * sample.tube.proof.h;
+            let mut tube = sample.tube.clone();
+            let (weights, h) = (tube.weights.clone(), factor * tube.proof.h);
             tally.shortened += 1;
-            let Some(proof) =
-                workshop
-                    .test
-                    .prove(&workshop.equations, &sample.tube.local, &mut weights, h)
-            else {
+            if !workshop.prove_as_it_is(&mut tube, weights, h) {
                 tally.refused += 1;
                 continue;
-            };
-            assert!(proof.h <= h);
-            let mut shorter = sample.tube.clone();
-            shorter.proof = proof;
-            let a = workshop.test.moving_matrix().clone();
-            let shorter = Sample { tube: shorter, a };
+            }
+            assert!(tube.proof.h <= h);
+            let kept = workshop.test.kept();
+            let shorter = Sample { tube, kept };
             check_path(&figure, &shorter, random, &mut tally.ratios).expect("a regular point");
         }
     }

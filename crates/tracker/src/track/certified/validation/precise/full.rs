@@ -10,13 +10,13 @@ use crate::track::full::certified::norms::Norms;
 
 /// Ỹ(s) of `tube.rs`, its matrices taken for exact.
 fn preconditioner(sample: &Sample, s: &Big) -> Rows {
-    let n = sample.a.rows();
+    let n = sample.kept.rows();
     let entries = |matrix: &Matrix| -> Rows {
         let row = |i| (0..n).map(|j| Big::of(matrix.get(i, j))).collect();
         (0..n).map(row).collect()
     };
     let y = entries(&sample.tube.local.y);
-    let moved = times(&entries(&sample.a), &y);
+    let moved = times(&entries(&sample.kept), &y);
     let row = |(y, moved): (&Vec<Big>, &Vec<Big>)| {
         y.iter().zip(moved).map(|(y, x)| y - &(x * s)).collect()
     };
@@ -38,24 +38,6 @@ fn times(a: &Rows, b: &Rows) -> Rows {
     a.iter().map(row).collect()
 }
 
-/// |v|_u.
-fn norm(u: &[f64], v: &[Big]) -> Big {
-    v.iter()
-        .zip(u)
-        .map(|(v, &u)| v.abs() / Big::of(u))
-        .fold(Big::of(0.0), Big::max)
-}
-
-/// |M|_u.
-fn norm_of(u: &[f64], m: &Rows) -> Big {
-    let weights = exact(&u[..m.len()]);
-    let row = |(i, row): (usize, &Vec<Big>)| {
-        let sizes: Vec<Big> = row.iter().map(Big::abs).collect();
-        dot(&sizes, &weights) / &weights[i]
-    };
-    m.iter().enumerate().map(row).fold(Big::of(0.0), Big::max)
-}
-
 /// M(s, w) = I − Ỹ(s) DG_s(w).
 fn contraction(figure: &Figure, sample: &Sample, (y, s): (&Rows, &Big), w: &[Big]) -> Rows {
     let z: Vec<Big> = at(&sample.tube, s)
@@ -64,23 +46,7 @@ fn contraction(figure: &Figure, sample: &Sample, (y, s): (&Rows, &Big), w: &[Big
         .zip(w)
         .map(|(z, w)| z + w)
         .collect();
-    let mut out = times(y, &figure.bordered(&z, sample.normal()));
-    for (i, row) in out.iter_mut().enumerate() {
-        for (j, x) in row.iter_mut().enumerate() {
-            *x = Big::of(if i == j { 1.0 } else { 0.0 }) - &*x;
-        }
-    }
-    out
-}
-
-fn in_box(random: &mut Random, u: &[f64], size: f64) -> Vec<Big> {
-    let corner = random.below(2) == 0;
-    u.iter()
-        .map(|&u| {
-            let part = if corner { 1.0 } else { random.unit() };
-            Big::of(random.sign() * part * size) * Big::of(u)
-        })
-        .collect()
+    identity_minus(times(y, &figure.bordered(&z, sample.normal())))
 }
 
 /// What `Norms` states, at one s.
@@ -209,7 +175,7 @@ pub fn check_exit(
 
 /// The numbers of a tube changed in some way: ẑ's coefficients, one of them, or Y's entries.
 fn changed(sample: &Sample, kind: usize, equations: &Equations, random: &mut Random) -> Sample {
-    let (n, mut tube) = (sample.a.rows(), sample.tube.clone());
+    let (n, mut tube) = (sample.kept.rows(), sample.tube.clone());
     let size = 10f64.powf(random.between(-9.0, -2.0));
     let local = &mut tube.local;
     match kind {
@@ -232,7 +198,7 @@ fn changed(sample: &Sample, kind: usize, equations: &Equations, random: &mut Ran
     settle(equations, local);
     Sample {
         tube,
-        a: sample.a.clone(),
+        kept: sample.kept.clone(),
     }
 }
 
@@ -267,7 +233,7 @@ fn check_problem(
             let norms = workshop
                 .test
                 .norms(equations, &tube.local, &tube.weights, h);
-            sample.a = workshop.test.moving_matrix().clone();
+            sample.kept = workshop.test.kept();
             if let Some(norms) = norms {
                 for _ in 0..rounds {
                     check_norms(figure, (&sample, &norms), random, ratios);
@@ -358,8 +324,8 @@ fn the_bend_counts_to_its_last_order_in_the_full_space() {
         .norms(equations, local, &tube.weights, 1.0)
         .expect("bounds");
     assert_eq!(norms.h, 1.0);
-    let a = workshop.test.moving_matrix().clone();
-    let (sample, mut random) = (Sample { tube, a }, Random::new(46));
+    let kept = workshop.test.kept();
+    let (sample, mut random) = (Sample { tube, kept }, Random::new(46));
     for _ in 0..40 {
         check_norms(&figure, (&sample, &norms), &mut random, &mut ratios);
     }

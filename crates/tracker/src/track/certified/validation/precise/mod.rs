@@ -191,6 +191,45 @@ pub fn at<const N: usize, Y>(tube: &Tube<N, Y>, s: &Big) -> (Vec<Big>, Vec<Big>)
     )
 }
 
+/// max |v_i| / u_i.
+pub fn norm(u: &[f64], v: &[Big]) -> Big {
+    v.iter()
+        .zip(u)
+        .map(|(v, &u)| v.abs() / Big::of(u))
+        .fold(Big::of(0.0), Big::max)
+}
+
+/// The norm of a matrix that belongs to it.
+pub fn norm_of(u: &[f64], m: &Rows) -> Big {
+    let weights = exact(&u[..m.len()]);
+    let row = |(i, row): (usize, &Vec<Big>)| {
+        let sizes: Vec<Big> = row.iter().map(Big::abs).collect();
+        dot(&sizes, &weights) / &weights[i]
+    };
+    m.iter().enumerate().map(row).fold(Big::of(0.0), Big::max)
+}
+
+/// A corner of the box of so many times the size u, or any of its points.
+pub fn in_box(random: &mut Random, u: &[f64], size: f64) -> Vec<Big> {
+    let corner = random.below(2) == 0;
+    u.iter()
+        .map(|&u| {
+            let part = if corner { 1.0 } else { random.unit() };
+            Big::of(random.sign() * part * size) * Big::of(u)
+        })
+        .collect()
+}
+
+/// I − M.
+pub fn identity_minus(mut m: Rows) -> Rows {
+    for (i, row) in m.iter_mut().enumerate() {
+        for (j, x) in row.iter_mut().enumerate() {
+            *x = Big::of(if i == j { 1.0 } else { 0.0 }) - &*x;
+        }
+    }
+    m
+}
+
 /// A point as exits are kept: its nearest floats, with low words where the tube has such, and what is left.
 pub fn ball_at<const N: usize, Y>(tube: &Tube<N, Y>, z: &[Big]) -> Ball {
     let mut ball = tube.exit.clone();

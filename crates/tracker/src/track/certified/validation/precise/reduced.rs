@@ -1,6 +1,6 @@
 //! Bounds of the reduced space along certified runs.
 
-use super::super::reduced::{Proved, ReducedTube, Shop, right_hand_sides};
+use super::super::reduced::right_hand_sides;
 use super::big::{exact, horner};
 use super::full::check_ball;
 use super::view::View;
@@ -291,8 +291,8 @@ pub fn within(name: &'static str, x: &Big, (lo, hi): (f64, f64), ratios: &mut Ra
 pub fn check_exit(
     shop: &mut Shop,
     figure: &Figure,
-    sample: &Proved,
-    next: Option<&Proved>,
+    sample: &ReducedSample,
+    next: Option<&ReducedSample>,
     ratios: &mut Ratios,
 ) -> Option<bool> {
     let (n, tube) = (figure.n, &sample.tube);
@@ -352,15 +352,14 @@ pub fn check_problem(
     ratios: &mut Ratios,
 ) -> [usize; 2] {
     let figure = Figure::new(problem, homotopy);
-    let mut shop = Shop::new(homotopy, alpha, max_h);
+    let mut shop = Shop::with_alpha(homotopy, alpha, max_h);
     let chain = shop.chain(homotopy, 600);
     let stride = (chain.len() / tubes).max(1);
     let mut counts = [0; 2];
     for k in (0..chain.len()).step_by(stride) {
         let Proved {
             tube,
-            bounds,
-            defect,
+            kept: (bounds, defect),
         } = &chain[k];
         assert!(tube.proof.h <= bounds.h && tube.proof.r <= 1.0);
         let view = View::new(&figure, tube);
