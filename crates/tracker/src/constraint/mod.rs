@@ -28,8 +28,6 @@ mod assembly;
 mod diameters;
 mod directions;
 mod factors;
-#[cfg(test)]
-mod floats;
 mod frame;
 mod heights;
 mod kind;

@@ -1,28 +1,24 @@
 //! Every kind of constraint on small problems: that its equations hold in the sketch, that they are
 //! regular, and that what satisfies them at t = 1 meets the constraint as people understand it.
 
-use super::floats::Floats;
 use super::frame::Frame;
 use super::quadratic::{Entry, Form};
+use crate::equations::{left_side, slopes};
 pub use crate::interval::vector::{cross, dot, length as size};
 use crate::interval::{Interval, point};
 use crate::places::{Each as _, array};
 use crate::problem::Problem;
+use crate::system::Homotopy;
 use nalgebra::{DMatrix, DVector};
 use std::collections::HashMap;
 
-/// Coordinates of points and values of auxiliary unknowns, by name.
-pub struct Figure(HashMap<String, Vec<f64>>);
+/// Coordinates of points, by name.
+pub struct Figure(HashMap<String, [f64; 3]>);
 
 impl Figure {
-    fn at(&self, name: &str) -> [f64; 3] {
-        let x = &self.0[name];
-        [x[0], x[1], x.get(2).copied().unwrap_or(0.0)]
-    }
-
     /// From one point to another.
     pub fn arrow(&self, from: &str, to: &str) -> [f64; 3] {
-        let (a, b) = (self.at(from), self.at(to));
+        let (a, b) = (self.0[from], self.0[to]);
         array(|k| b[k] - a[k])
     }
 
@@ -104,15 +100,21 @@ fn holds_in_the_sketch(problem: &Problem) {
 }
 
 /// Newton's method at t; the smallest singular value of the last Jacobian over the largest.
-fn newton(floats: &Floats, x: &mut [f64], t: f64) -> Result<f64, String> {
-    let n = floats.equations();
+fn newton(homotopy: &Homotopy, x: &mut [f64], t: f64) -> Result<f64, String> {
+    let n = homotopy.equations;
     for _ in 0..30 {
-        let rows: Vec<Vec<f64>> = (0..n).map(|e| floats.row(e, x)).collect();
-        let jacobian = DMatrix::from_fn(n, n, |e, k| rows[e][floats.free[k]]);
-        let residual = DVector::from_fn(n, |e, _| floats.left(e, x) - floats.right(e, t));
+        let at = |entry: Option<usize>| entry.map_or(0.0, |i| x[i]);
+        let (mut jacobian, mut residual) = (DMatrix::zeros(n, n), DVector::zeros(n));
+        for e in 0..n {
+            let terms = homotopy.terms(e);
+            residual[e] = left_side(&terms, at) - homotopy.rights[e].enclose(point(t)).mid();
+            slopes(&terms, at, |entry, slope| {
+                entry.into_iter().for_each(|i| jacobian[(e, i)] += slope);
+            });
+        }
         let step = jacobian.clone().lu().solve(&residual).ok_or("singular")?;
-        for (k, &column) in floats.free.iter().enumerate() {
-            x[column] -= step[k];
+        for (x, step) in x.iter_mut().zip(&step) {
+            *x -= step;
         }
         if step.amax() < 1e-12 {
             let singular = jacobian.singular_values();
@@ -123,37 +125,32 @@ fn newton(floats: &Floats, x: &mut [f64], t: f64) -> Result<f64, String> {
 }
 
 /// Follows the path from the sketch to t = 1 in many small steps.
-pub fn solution(problem: &Problem) -> Figure {
-    let floats = Floats::new(problem).unwrap();
-    let mut x = floats.sketch.clone();
+fn solution(problem: &Problem) -> Figure {
+    let homotopy = Homotopy::with_unit(problem, 1.0).unwrap();
+    let sketch: Vec<f64> = homotopy.sketch_of_unknowns().map(|x| x.mid()).collect();
+    let mut x = sketch.clone();
     // From a figure that is a little off, too.
-    for (k, &column) in floats.free.iter().enumerate() {
-        x[column] += 1e-3 * ((k * 7 + 3) as f64).sin();
+    for (k, x) in x.iter_mut().enumerate() {
+        *x += 1e-3 * ((k * 7 + 3) as f64).sin();
     }
-    let ratio = newton(&floats, &mut x, 0.0).unwrap();
+    let ratio = newton(&homotopy, &mut x, 0.0).unwrap();
     assert!(
         ratio > 1e-6,
         "{}: singular in the sketch, {ratio:e}",
         problem.name
     );
-    for (a, b) in x.iter().zip(&floats.sketch) {
+    for (a, b) in x.iter().zip(&sketch) {
         assert!((a - b).abs() < 1e-9, "{}: another figure", problem.name);
     }
     const STEPS: usize = 50;
     for step in 1..=STEPS {
-        let ratio = newton(&floats, &mut x, step as f64 / STEPS as f64);
+        let ratio = newton(&homotopy, &mut x, step as f64 / STEPS as f64);
         let ratio = ratio.unwrap_or_else(|error| panic!("{}: {error}", problem.name));
         assert!(ratio > 1e-7, "{}: singular, {ratio:e}", problem.name);
     }
-    let mut values = HashMap::new();
-    let d = problem.dimension;
-    for (p, point) in problem.points.iter().enumerate() {
-        values.insert(point.name.clone(), x[p * d..(p + 1) * d].to_vec());
-    }
-    for (u, unknown) in floats.lowered.tail.unknowns.iter().enumerate() {
-        values.insert(unknown.name.clone(), vec![x[problem.points.len() * d + u]]);
-    }
-    Figure(values)
+    let points = problem.points.iter().enumerate();
+    let places = points.map(|(p, point)| (point.name.clone(), homotopy.place(p, |i| x[i])));
+    Figure(places.collect())
 }
 
 /// All that is said above of one problem; the solution, to ask what it meets.

@@ -27,6 +27,32 @@ pub(super) struct Frame {
     pub hinges: Vec<Hinge>,
 }
 
+impl Frame {
+    /// Each point is joined to as many before it as there are dimensions. Without the bar to the last of these, what comes after turns
+    /// about the others: a point, or the line through two.
+    pub fn of_simplices(dimension: usize, points: Vec<V3>) -> Self {
+        let (mut bars, mut hinges) = (Vec::new(), Vec::new());
+        for k in 1..points.len() {
+            for back in 1..=k.min(dimension) {
+                if back == dimension {
+                    hinges.push(Hinge {
+                        axis: [k - 1, k + 1 - dimension],
+                        first: k,
+                        bar: bars.len(),
+                    });
+                }
+                bars.push([k - back, k]);
+            }
+        }
+        Frame {
+            dimension,
+            points,
+            bars,
+            hinges,
+        }
+    }
+}
+
 /// A bar without which all points from one on turn about an axis.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Hinge {

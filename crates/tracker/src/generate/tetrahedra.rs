@@ -1,11 +1,10 @@
 //! Tetrahedra face to face.
 
-use super::frame::{Frame, Hinge, JITTER, RADIUS, on_circle, plus};
+use super::frame::{Frame, JITTER, RADIUS, on_circle, plus};
 use crate::random::Random;
 use std::f64::consts::TAU;
 
-/// Each point is joined to the three before it. Without the bar to the third of these, what comes
-/// after turns about the line through the two others.
+/// Each point is joined to the three before it.
 pub(super) fn frame(points: usize, random: &mut Random) -> Frame {
     // Boerdijk and Coxeter's helix, bent round: a step forward by 1/√10, a turn by arccos(−2/3),
     // at a distance of √(27/100) from the middle, for edges of length 1.
@@ -20,26 +19,5 @@ pub(super) fn frame(points: usize, random: &mut Random) -> Frame {
         );
         plus(regular, random.jitter(3, JITTER))
     });
-    let points = places.collect::<Vec<_>>();
-    let (mut bars, mut hinges) = (Vec::new(), Vec::new());
-    for k in 1..points.len() {
-        bars.push([k - 1, k]);
-        if k >= 2 {
-            bars.push([k - 2, k]);
-        }
-        if k >= 3 {
-            hinges.push(Hinge {
-                axis: [k - 1, k - 2],
-                first: k,
-                bar: bars.len(),
-            });
-            bars.push([k - 3, k]);
-        }
-    }
-    Frame {
-        dimension: 3,
-        points,
-        bars,
-        hinges,
-    }
+    Frame::of_simplices(3, places.collect())
 }

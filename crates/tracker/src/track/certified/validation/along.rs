@@ -1,6 +1,8 @@
-//! What tests of both spaces look at along a chain: where it starts, tubes' middles, their links.
+//! What tests of both spaces look at along a chain: where it starts, and its links.
 
 use super::super::link::Frame;
+use super::precise::big::{Big, dot};
+use super::precise::{Figure, at};
 use super::*;
 
 /// The sketch, with t = 0.
@@ -24,94 +26,37 @@ pub fn at_sketch(
     Some(local)
 }
 
-/// ẑ(s), in intervals.
-pub fn middle<const N: usize, Y>(tube: &Tube<N, Y>, s: f64) -> Vec<Interval> {
-    let term = |k: usize, i: usize| point(tube.local.z[k][i]);
-    (0..tube.weights.len() - 1)
-        .map(|i| {
-            (0..N)
-                .rev()
-                .fold(point(0.0), |sum, k| sum * point(s) + term(k, i))
-        })
-        .collect()
-}
-
-/// ẑ'(s).
-pub fn slope<const N: usize, Y>(tube: &Tube<N, Y>, s: f64) -> Vec<Interval> {
-    let term = |k: usize, i: usize| point(k as f64) * point(tube.local.z[k][i]);
-    (0..tube.weights.len() - 1)
-        .map(|i| {
-            (1..N)
-                .rev()
-                .fold(point(0.0), |sum, k| sum * point(s) + term(k, i))
-        })
-        .collect()
-}
-
-/// A point of the path, the exit of the tube before, and the path's direction there: it is in this tube
-/// where its entry says, and this tube is followed the same way.
-pub fn check_entry<const N: usize, Y>(
-    tube: &Tube<N, Y>,
-    (z, direction): (&[Interval], &[Interval]),
-) {
-    let normal = &tube.local.normal;
-    let along = |v: &[Interval]| {
-        let terms = v.iter().zip(normal.iter());
-        terms.fold(point(0.0), |sum, (v, &c)| sum + point(c) * *v)
-    };
-    let g = |s: f64| {
-        let there = middle(tube, s);
-        let away: Vec<Interval> = z.iter().zip(&there).map(|(z, x)| *z - *x).collect();
-        along(&away)
-    };
-    let (lo, hi) = tube.entry;
-    assert!(
-        g(lo).sup() >= 0.0 && g(hi).inf() <= 0.0,
-        "the entry is not in [{lo}, {hi}]"
-    );
-    assert!(
-        along(direction).sup() > 0.0,
-        "the next tube is followed backwards"
-    );
-}
-
 /// If two tubes are linked, then the first one's exit is in the second where it is said to be,
 /// and both run the same way there.
 pub fn link_is_true<const N: usize, Y>(
-    exact: &Exact,
+    figure: &Figure,
     from: &Tube<N, Y>,
     to: &Tube<N, Y>,
     entry: (f64, f64),
 ) -> bool {
-    let at = |tube: &Tube<N, Y>, s: f64| {
-        let through = middle(tube, s);
-        let start: Vec<f64> = through.iter().map(|x| x.mid()).collect();
-        exact
-            .point_near(&start, &tube.local.normal, &through)
+    let point = |tube: &Tube<N, Y>, s: f64| {
+        let (through, _) = at(tube, &Big::of(s));
+        figure
+            .point_near(&through, &tube.local.normal)
             .expect("a regular point")
     };
-    let (exit, ahead) = at(from, from.exit_at);
-    let (there, along) = at(to, 0.5 * (entry.0 + entry.1));
+    let (exit, ahead) = point(from, from.exit_at);
+    let (there, along) = point(to, 0.5 * (entry.0 + entry.1));
     // The entry's width moves the point by about as much, the weights aside.
-    let allowed = 1e-9 + 2.0 * (entry.1 - entry.0);
+    let allowed = Big::of(1e-9 + 2.0 * (entry.1 - entry.0));
     let mut pairs = exit.iter().zip(&there);
-    let near = pairs.all(|(a, b)| (*a - *b).abs().inf() <= allowed);
-    let product = ahead
-        .iter()
-        .zip(&along)
-        .fold(point(0.0), |sum, (a, b)| sum + *a * *b);
-    near && product.sup() > 0.0
+    pairs.all(|(a, b)| (a - b).abs() <= allowed) && dot(&ahead, &along) > Big::of(0.0)
 }
 
 /// Whether a tube is found to lead to another; if so that is true.
 #[track_caller]
 pub fn leads_truly<const N: usize, Y: Frame>(
-    exact: &Exact,
+    figure: &Figure,
     from: &Tube<N, Y>,
     to: &Tube<N, Y>,
 ) -> bool {
     let link = from.leads_to(to);
-    let is_true = link.is_none_or(|entry| link_is_true(exact, from, to, entry));
+    let is_true = link.is_none_or(|entry| link_is_true(figure, from, to, entry));
     assert!(is_true, "linked to a tube that it does not lead to");
     link.is_some()
 }
@@ -122,31 +67,4 @@ pub fn mirrored(homotopy: &Homotopy, v: &[f64]) -> Vec<f64> {
     let is_turned = |i: usize| i < m && homotopy.flips(i, axis);
     let entry = |i: usize| if is_turned(i) { -v[i] } else { v[i] };
     (0..=m).map(entry).collect()
-}
-
-/// Linked tubes from a first one on, at most `count`, each tried at most so many half lengths behind the exit of the one before:
-/// `next` makes one at a point, with a normal, to which the last one leads. `room` is for points.
-pub fn chain<S, const N: usize, Y: Preconditioner>(
-    first: S,
-    (count, reach): (usize, f64),
-    room: Vector,
-    tube: impl Fn(&S) -> &Tube<N, Y>,
-    mut next: impl FnMut(&S, &[f64], &[f64]) -> Option<S>,
-) -> Vec<S> {
-    let (mut z, mut normal) = (room.clone(), room);
-    let (mut chain, mut trust) = (vec![first], 1.0f64);
-    while chain.len() < count && trust > 1e-6 {
-        let last = &chain[chain.len() - 1];
-        let from = tube(last);
-        let advance = from.exit_at + reach * trust * from.proof.h;
-        from.local.predict(advance, None, &mut z, &mut normal);
-        match next(last, &z, &normal) {
-            Some(next) => {
-                chain.push(next);
-                trust = (1.5 * trust).min(1.0);
-            }
-            None => trust *= 0.6,
-        }
-    }
-    chain
 }

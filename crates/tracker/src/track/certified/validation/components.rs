@@ -1,6 +1,8 @@
 //! Two starting points: on the same component they lead to the same set of solutions, on different
 //! ones to sets that have nothing in common.
 
+use super::precise::Figure;
+use super::precise::big::{Big, exact};
 use super::*;
 use crate::track::certified::track;
 use crate::track::{Control, Options, Outcome, Solution, Status, TubeSeen, Witness};
@@ -20,14 +22,9 @@ impl Witness for NearZero {
     fn end(&mut self, _: &Status, _: &[usize]) {}
 }
 
-fn same(a: &Solution, b: &Solution) -> bool {
-    let pairs = a.points.iter().flatten().zip(b.points.iter().flatten());
-    pairs.into_iter().all(|(x, y)| !x.disjoint(*y))
-}
-
 /// Of how many solutions of the one there is one among those of the other.
 fn common(a: &Outcome, b: &Outcome) -> usize {
-    let found = |s: &&Solution| b.solutions.iter().any(|other| same(s, other));
+    let found = |s: &&Solution| b.solutions.iter().any(|other| boxes_meet(s, other));
     a.solutions.iter().filter(found).count()
 }
 
@@ -39,11 +36,11 @@ struct Tally {
 }
 
 /// The homotopy with the figure `z` in place of the sketch at t = 0; its lengths must be those of the sketch.
-fn started_at(homotopy: &Homotopy, z: &[Interval]) -> Homotopy {
+fn started_at(homotopy: &Homotopy, z: &[Big]) -> Homotopy {
     let mut other = homotopy.clone();
-    for (&place, &z) in homotopy.gauge.place.iter().zip(z) {
-        other.sketch[place] = z.mid();
-        other.sketch_box[place] = z;
+    for (&place, z) in homotopy.gauge.place.iter().zip(z) {
+        other.sketch[place] = z.to_f64();
+        other.sketch_box[place] = z.enclosure();
     }
     other
 }
@@ -67,11 +64,10 @@ fn compare(problem: &Problem, random: &mut Random, tally: &mut Tally) {
         tally.open += 1;
         return;
     }
-    let exact = Exact::new(&homotopy);
-    let n = exact.n;
+    let figure = Figure::new(problem, &homotopy);
+    let n = figure.n;
     let mut normal = vec![0.0; n];
     normal[n - 1] = 1.0;
-    let at_zero = vec![point(0.0); n];
     // A point of the path itself, and others from around it.
     let mut starts = vec![near.0[random.below(near.0.len())].clone()];
     for spread in [0.3, 0.6, 1.0, 1.0, 1.0, 1.5, 2.0, 3.0] {
@@ -81,7 +77,9 @@ fn compare(problem: &Problem, random: &mut Random, tally: &mut Tally) {
         starts.push(start.collect());
     }
     for (k, start) in starts.into_iter().enumerate() {
-        let Some((z, _)) = exact.point_near(&start, &normal, &at_zero) else {
+        let mut through = exact(&start);
+        through[n - 1] = Big::of(0.0);
+        let Some((z, _)) = figure.point_near(&through, &normal) else {
             continue;
         };
         let other = started_at(&homotopy, &z);
@@ -95,7 +93,7 @@ fn compare(problem: &Problem, random: &mut Random, tally: &mut Tally) {
         let context = || format!("start {k}: {shared} shared\n{}", problem.to_toml());
         assert!(all || shared == 0, "{}", context());
         // From the path itself Newton's method does not lead far away.
-        let moved = (0..n - 1).any(|i| (z[i].mid() - start[i]).abs() > 0.05);
+        let moved = (0..n - 1).any(|i| (z[i].to_f64() - start[i]).abs() > 0.05);
         assert!(all || k > 0 || moved, "{}", context());
         if !first.solutions.is_empty() {
             if all {

@@ -1,6 +1,6 @@
 //! Distances written as other equations: the same path, tracked and proved through the tail.
 
-use super::{Random, effort, random_problem};
+use super::{Random, boxes_meet, effort, random_problem};
 use crate::constraint::{
     Entry, Equation, Form, Product, Role, Tail, Unknown, coordinate, difference, value,
 };
@@ -44,6 +44,12 @@ impl Disguised {
     pub fn homotopy(&self) -> Option<Homotopy> {
         let unit = Homotopy::new(&self.plain).ok()?.unit;
         Homotopy::with_constraints(&self.rest, unit, |sketch| self.lower(sketch)).ok()
+    }
+
+    /// With the problem that is left.
+    pub fn with_homotopy(self) -> Option<(Problem, Homotopy)> {
+        let homotopy = self.homotopy()?;
+        Some((self.rest, homotopy))
     }
 
     fn lower(&self, sketch: &[[Interval; 3]]) -> Tail {
@@ -94,19 +100,17 @@ impl Disguised {
                 .collect()
         };
         let right = half_square(length);
-        let mut push = |products: Vec<Product>, right: Vec<Real>, power: i32| {
-            let name = self.plain.distance_name(0);
-            let equation = Equation {
-                name,
+        let say = |tail: &mut Tail, products: Vec<Product>, right: Vec<Real>, power: i32| {
+            tail.equations.push(Equation {
+                name: self.plain.distance_name(0),
                 products,
                 right,
                 power,
-            };
-            tail.equations.push(equation);
+            });
         };
         match kind {
             // The same, but not as a distance.
-            0 => push(squares(&forms), right.clone(), 2),
+            0 => say(tail, squares(&forms), right.clone(), 2),
             // Added to the one before: E + E' = |p|² / 2 + …
             1 if before.is_some() => {
                 let (others, other) = before.as_ref().expect("one before");
@@ -115,7 +119,7 @@ impl Disguised {
                     let zero = Real::zero();
                     right.get(k).unwrap_or(&zero) + other.get(k).unwrap_or(&zero)
                 });
-                push(products, sum.collect(), 2);
+                say(tail, products, sum.collect(), 2);
             }
             // With a radius: |p|² − r² = 0, r = a(t).
             2 => {
@@ -128,22 +132,9 @@ impl Disguised {
                 let r = value(Entry::Unknown(k));
                 let mut products = squares(&forms);
                 products.push(Product::new(-1, r, r));
-                let add = |tail: &mut Tail, products, right, power| {
-                    let name = "radius".to_owned();
-                    tail.equations.push(Equation {
-                        name,
-                        products,
-                        right,
-                        power,
-                    });
-                };
-                add(tail, products, vec![Real::zero()], 2);
-                add(
-                    tail,
-                    vec![Product::new(2, r, Form::One)],
-                    length.to_vec(),
-                    1,
-                );
+                say(tail, products, vec![Real::zero()], 2);
+                let twice = vec![Product::new(2, r, Form::One)];
+                say(tail, twice, length.to_vec(), 1);
             }
             // With a vector of its own: w = p_i − p_j, twisted so that products have different factors.
             3 => {
@@ -158,36 +149,37 @@ impl Disguised {
                         Product::new(2, w, Form::One),
                         Product::new(-2, forms[axis], Form::One),
                     ];
-                    let name = "w".to_owned();
-                    tail.equations.push(Equation {
-                        name,
-                        products,
-                        right: vec![Real::zero()],
-                        power: 1,
-                    });
+                    say(tail, products, vec![Real::zero()], 1);
                 }
                 let w = |axis: usize| value(Entry::Unknown(first + axis));
                 let products = (0..d)
                     .map(|axis| Product::new(1, w(axis), forms[axis]))
                     .collect();
-                let name = "w w".to_owned();
-                tail.equations.push(Equation {
-                    name,
-                    products,
-                    right: right.clone(),
-                    power: 2,
-                });
+                say(tail, products, right.clone(), 2);
             }
             // As (x − y)(x + y) would be: three times the first axis, less it twice.
             _ => {
                 let mut products = squares(&forms);
                 products.push(Product::new(3, forms[0], forms[0]));
                 products.push(Product::new(-3, forms[0], forms[0]));
-                push(products, right.clone(), 2);
+                say(tail, products, right.clone(), 2);
             }
         }
         *before = Some((squares(&forms), right));
     }
+}
+
+/// The problem and its homotopy, every other time in other words.
+pub fn every_other_disguised(
+    round: usize,
+    problem: Problem,
+    random: &mut Random,
+) -> Option<(Problem, Homotopy)> {
+    if round % 4 < 2 {
+        let homotopy = Homotopy::new(&problem).ok()?;
+        return Some((problem, homotopy));
+    }
+    Disguised::new(&problem, 0.7, random).with_homotopy()
 }
 
 fn unknown(name: &str, role: Role, power: i32, flips: [bool; 3], sketch: Interval) -> Unknown {
@@ -228,12 +220,9 @@ fn run_in(space: Space, homotopy: &Homotopy, reverse: bool) -> Outcome {
 
 /// Whether the solutions of two runs lie in boxes that meet, one by one and in their order.
 fn agree(one: &Outcome, other: &Outcome) -> bool {
-    let meets = |a: &Interval, b: &Interval| a.inf() <= b.sup() && b.inf() <= a.sup();
+    let mut pairs = one.solutions.iter().zip(&other.solutions);
     one.solutions.len() == other.solutions.len()
-        && one.solutions.iter().zip(&other.solutions).all(|(a, b)| {
-            let mut pairs = a.points.iter().flatten().zip(b.points.iter().flatten());
-            a.class == b.class && pairs.all(|(a, b)| meets(a, b))
-        })
+        && pairs.all(|(a, b)| a.class == b.class && boxes_meet(a, b))
 }
 
 /// Runs random problems and the same in other words, and compares.

@@ -5,7 +5,7 @@
 
 use super::*;
 use crate::track::full::{InverseMaker, Local, Preconditioner};
-use crate::track::{Control, Options, Outcome, Solution, Space, Status, solve};
+use crate::track::{Control, Options, Outcome, Space, Status, solve};
 use std::cell::RefCell;
 
 /// What goes wrong, and how often.
@@ -136,11 +136,6 @@ impl Faults {
         self.injected[kind] += 1;
         true
     }
-}
-
-fn boxes_meet(a: &Solution, b: &Solution) -> bool {
-    let pairs = a.points.iter().flatten().zip(b.points.iter().flatten());
-    pairs.into_iter().all(|(x, y)| !x.disjoint(*y))
 }
 
 /// All that is claimed is claimed by the sound run, too. Where other objects than points tell solutions apart, as many

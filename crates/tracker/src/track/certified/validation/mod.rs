@@ -1,5 +1,5 @@
-//! The proofs, checked against computations that share nothing with them: interval matrices filled
-//! straight from the homotopy, exact rationals, figures whose whole path is known, and sabotage.
+//! The proofs, checked against computations that share nothing with them: numbers of 256 bits from the problems' exact data,
+//! rationals, figures whose whole path is known, and sabotage.
 //!
 //! A test here that fails shows a claim that is false, or one that is made without a proof.
 
@@ -23,23 +23,20 @@ mod tubes;
 
 pub use faults::inject as inject_fault;
 
-use crate::equations::Form;
-use crate::places::Each as _;
 use crate::plan::testing;
-use along::{
-    at_sketch, chain, check_entry, leads_truly, link_is_true, middle, mirrored, sketch, slope,
-};
+use along::{at_sketch, leads_truly, link_is_true, mirrored, sketch};
 
 use super::link::Tube;
+use super::tracker::Test;
 use crate::interval::rounding::{gamma, round_up};
 use crate::interval::{Interval, hull, point};
 use crate::linalg::{Matrix, Vector};
-use crate::problem::{Decimal, Problem};
+use crate::problem::{Decimal, Problem, Target};
 use crate::system::Homotopy;
 use crate::track::full::certified::KrawczykTest;
 use crate::track::full::{Equations, InverseMaker, Local, ORDER, Preconditioner, first_normal};
-use crate::track::{Control, Options, Space, Status, solve};
-use nalgebra::DMatrix;
+use crate::track::reduced::certified::{Bounds, COEFFICIENTS, ReducedTest};
+use crate::track::{Control, Options, Solution, Space, Status, solve};
 
 /// How far ẑ(s)_i, as [`Local::entry_at`] evaluates it in floats, may be from the exact value.
 fn evaluation_error<const N: usize, Y: Preconditioner>(
@@ -54,20 +51,17 @@ fn evaluation_error<const N: usize, Y: Preconditioner>(
     round_up(gamma(4 * N) * size, 4 * N)
 }
 
-/// SplitMix64 (Steele, Lea, Flood 2014): the same numbers in every run.
-pub struct Random(u64);
+/// The same numbers in every run.
+pub struct Random(crate::random::Random);
 
 impl Random {
     pub fn new(seed: u64) -> Self {
-        Random(seed + 1000 * from_environment("KRAWL_SEED").unwrap_or(0))
+        let seed = seed + 1000 * from_environment("KRAWL_SEED").unwrap_or(0);
+        Random(crate::random::Random::new(seed))
     }
 
     pub fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
+        self.0.bits()
     }
 
     /// Uniform in [0, 1).
@@ -115,6 +109,31 @@ pub fn times_ten_to(x: &Decimal, exponent: i32) -> Option<Decimal> {
     format!("{mantissa}e{}", old.parse::<i32>().ok()? + exponent)
         .parse()
         .ok()
+}
+
+/// The same in another unit. `None`: out of range.
+pub fn scaled(problem: &Problem, exponent: i32) -> Option<Problem> {
+    let mut problem = problem.clone();
+    for point in &mut problem.points {
+        for x in &mut point.sketch {
+            *x = times_ten_to(x, exponent)?;
+        }
+    }
+    for distance in &mut problem.distances {
+        distance.target = match &distance.target {
+            Target::Length(length) => Target::Length(times_ten_to(length, exponent)?),
+            Target::SquaredLength(x) => Target::SquaredLength(times_ten_to(x, 2 * exponent)?),
+        };
+    }
+    let bend = &mut problem.homotopy.bend_coefficient;
+    *bend = times_ten_to(bend, exponent)?;
+    Some(problem)
+}
+
+/// Whether two solutions may have the same points.
+pub fn boxes_meet(a: &Solution, b: &Solution) -> bool {
+    let mut pairs = a.points.iter().flatten().zip(b.points.iter().flatten());
+    pairs.all(|(x, y)| !x.disjoint(*y))
 }
 
 /// A number with few digits, so that its decimal is what people would write.
@@ -210,248 +229,148 @@ pub fn closes(problem: &Problem, space: Space) -> bool {
     outcome.is_ok_and(|outcome| outcome.status == Status::Closed)
 }
 
-/// The homotopy in intervals, read off its own data rather than the trackers' arrays.
-pub struct Exact<'a> {
-    pub homotopy: &'a Homotopy,
-    pub m: usize,
-    pub n: usize,
+/// A test, and what its proofs are made of that tubes do not keep.
+pub trait Stated<const N: usize>: Test<N> {
+    /// Of one proof.
+    type Kept: Clone;
+
+    /// Of the last one.
+    fn kept(&self) -> Self::Kept;
 }
 
-pub type Rows = Vec<Vec<Interval>>;
+/// A of the tube.
+impl Stated<{ ORDER + 1 }> for KrawczykTest {
+    type Kept = Matrix;
 
-impl<'a> Exact<'a> {
-    pub fn new(homotopy: &'a Homotopy) -> Self {
-        Exact {
-            homotopy,
-            m: homotopy.equations,
-            n: homotopy.equations + 1,
-        }
-    }
-
-    /// A factor of a term: a difference of unknowns, or 1.
-    fn factor(&self, z: &[Interval], form: Form<Option<usize>>) -> Interval {
-        form.value(|entry| entry.map_or(point(0.0), |i| z[i]))
-    }
-
-    pub fn residual(&self, z: &[Interval]) -> Vec<Interval> {
-        (0..self.m)
-            .map(|e| {
-                let twice = self.homotopy.terms(e).iter().fold(point(0.0), |sum, term| {
-                    let (x, y) = (self.factor(z, term.left), self.factor(z, term.right));
-                    let product = if term.left == term.right {
-                        x.sqr()
-                    } else {
-                        x * y
-                    };
-                    sum + point(term.factor.into()) * product
-                });
-                twice * point(0.5) - self.homotopy.rights[e].enclose(z[self.m])
-            })
-            .collect()
-    }
-
-    /// J(z) with the row c below.
-    pub fn bordered(&self, z: &[Interval], c: &[f64]) -> Rows {
-        let t = z[self.m];
-        let mut rows: Rows = (0..self.m)
-            .map(|e| {
-                let mut row = self.homotopy.slopes(e, |i| z[i]);
-                let e = self.homotopy.rights[e].enclosures();
-                let [two, three, four] = [2.0, 3.0, 4.0].each(point);
-                row.push(-(e[1] + t * (two * e[2] + t * (three * e[3] + t * four * e[4]))));
-                row
-            })
-            .collect();
-        rows.push(c[..self.n].iter().map(|&c| point(c)).collect());
-        rows
-    }
-
-    /// Encloses the zero of F in the cross-section c·(z − through) = 0 that Newton's method finds
-    /// from `start`; with it an enclosure of the solution x of [J; c] x = (0, …, 0, 1).
-    ///
-    /// Krawczyk's test with another preconditioner than the trackers', the inverse at the point
-    /// itself, in intervals. `None`: it fails.
-    pub fn point_near(
-        &self,
-        start: &[f64],
-        c: &[f64],
-        through: &[Interval],
-    ) -> Option<(Vec<Interval>, Vec<Interval>)> {
-        let n = self.n;
-        let mut z = start[..n].to_vec();
-        let at = |z: &[f64]| z.iter().map(|&x| point(x)).collect::<Vec<_>>();
-        let defect = |z: &[Interval]| {
-            let mut g = self.residual(z);
-            let along = (0..n).fold(point(0.0), |sum, i| sum + point(c[i]) * (z[i] - through[i]));
-            g.push(along);
-            g
-        };
-        let mut inverse = DMatrix::zeros(n, n);
-        for _ in 0..8 {
-            let rows = self.bordered(&at(&z), c);
-            inverse = DMatrix::from_fn(n, n, |i, j| rows[i][j].mid()).try_inverse()?;
-            let g = defect(&at(&z));
-            for i in 0..n {
-                z[i] -= (0..n).map(|j| inverse[(i, j)] * g[j].mid()).sum::<f64>();
-            }
-        }
-        let times = |v: &[Interval]| -> Vec<Interval> {
-            (0..n)
-                .map(|i| (0..n).fold(point(0.0), |sum, j| sum + point(inverse[(i, j)]) * v[j]))
-                .collect()
-        };
-        let centre = at(&z);
-        let step = times(&defect(&centre));
-        let size = z.iter().fold(0.0f64, |max, x| max.max(x.abs()));
-        let mut radius: Vec<f64> = step.iter().map(|x| 2.0 * x.mag() + 1e-16 * size).collect();
-        for _ in 0..6 {
-            let around: Vec<Interval> = (0..n)
-                .map(|i| hull(z[i] - radius[i], z[i] + radius[i]))
-                .collect();
-            let contraction = self.identity_minus(&inverse, &self.bordered(&around, c));
-            let image: Vec<Interval> = (0..n)
-                .map(|i| {
-                    let rest = (0..n).fold(point(0.0), |sum, j| {
-                        sum + contraction[i][j] * (around[j] - centre[j])
-                    });
-                    centre[i] - step[i] + rest
-                })
-                .collect();
-            if (0..n).all(|i| image[i].interior(around[i])) {
-                // x = C e_n + (I − C [J; c]) x, and |I − C [J; c]| < 1 in the largest row sum.
-                let norm = contraction
-                    .iter()
-                    .map(|row| row.iter().fold(point(0.0), |sum, x| sum + x.abs()).sup())
-                    .fold(0.0, f64::max);
-                if norm >= 0.5 {
-                    return None;
-                }
-                let x: Vec<f64> = (0..n).map(|i| inverse[(i, n - 1)]).collect();
-                let largest = x.iter().fold(0.0f64, |max, x| max.max(x.abs()));
-                let error = (point(norm) * point(largest) / (point(1.0) - point(norm))).sup();
-                return Some((
-                    image,
-                    x.iter().map(|&x| hull(x - error, x + error)).collect(),
-                ));
-            }
-            radius.iter_mut().for_each(|r| *r *= 3.0);
-        }
-        None
-    }
-
-    fn identity_minus(&self, inverse: &DMatrix<f64>, rows: &Rows) -> Rows {
-        let n = self.n;
-        (0..n)
-            .map(|i| {
-                (0..n)
-                    .map(|j| {
-                        let one = point(if i == j { 1.0 } else { 0.0 });
-                        (0..n).fold(one, |sum, k| sum - point(inverse[(i, k)]) * rows[k][j])
-                    })
-                    .collect()
-            })
-            .collect()
+    fn kept(&self) -> Matrix {
+        self.moving_matrix().clone()
     }
 }
 
-/// A proved tube, and its A.
+/// The bounds, and what bounds Φ(0) row by row.
+impl Stated<COEFFICIENTS> for ReducedTest {
+    type Kept = (Bounds, Vec<f64>);
+
+    fn kept(&self) -> (Bounds, Vec<f64>) {
+        (*self.stated(), self.defect().to_vec())
+    }
+}
+
+/// A proved tube, and what its proof was made of.
 #[derive(Clone)]
-pub struct Sample {
-    pub tube: Tube,
-    pub a: Matrix,
+pub struct Proved<const N: usize, T: Stated<N>> {
+    pub tube: Tube<N, T::Frame>,
+    pub kept: T::Kept,
 }
 
-impl Sample {
-    /// A lower bound of |v|_u.
-    pub fn norm(&self, v: &[Interval]) -> f64 {
-        v.iter()
-            .zip(self.tube.weights.iter())
-            .map(|(v, &u)| (v.abs() / point(u)).inf())
-            .fold(0.0, f64::max)
-    }
-
+impl<const N: usize, T: Stated<N>> Proved<N, T> {
     pub fn normal(&self) -> &[f64] {
         &self.tube.local.normal
     }
 }
 
 /// What is needed to make tubes by hand.
-pub struct Workshop {
+pub struct Maker<const N: usize, T: Stated<N>> {
     pub equations: Equations,
     pub inverter: InverseMaker,
-    pub test: KrawczykTest,
-    pub weights: Vector,
+    pub test: T,
     pub max_h: f64,
 }
 
-impl Workshop {
+/// In the full space.
+pub type Sample = Proved<{ ORDER + 1 }, KrawczykTest>;
+pub type Workshop = Maker<{ ORDER + 1 }, KrawczykTest>;
+
+/// In the reduced space.
+pub type ReducedTube = Tube<COEFFICIENTS, <ReducedTest as Test<COEFFICIENTS>>::Frame>;
+pub type ReducedSample = Proved<COEFFICIENTS, ReducedTest>;
+pub type Shop = Maker<COEFFICIENTS, ReducedTest>;
+
+impl<const N: usize, T: Stated<N>> Maker<N, T> {
     pub fn new(homotopy: &Homotopy, max_h: f64) -> Self {
+        Self::with_alpha(homotopy, Options::certified().alpha, max_h)
+    }
+
+    pub fn with_alpha(homotopy: &Homotopy, alpha: f64, max_h: f64) -> Self {
         let equations = Equations::new(homotopy);
-        let n = equations.n();
-        let mut weights = equations.vector();
-        weights[..n].fill(1.0);
-        Workshop {
+        let options = Options {
+            space: T::SPACE,
+            alpha,
+            ..Options::certified()
+        };
+        Maker {
             inverter: equations.inverter(),
-            test: KrawczykTest::new(&equations, 1),
-            weights,
+            test: T::new(homotopy, &equations, &options),
             equations,
             max_h,
         }
     }
 
-    /// A proved tube at the point and with the normal given, after a number of rounds for the weights.
-    pub fn tube(&mut self, z: &[f64], normal: &[f64], rounds: usize) -> Option<Sample> {
+    /// A proved tube at the point and with the normal given; `first`: after some rounds for what is found by proving.
+    pub fn tube(&mut self, z: &[f64], normal: &[f64], first: bool) -> Option<Proved<N, T>> {
         let n = self.equations.n();
         let mut tube = Tube::new(&self.equations);
         tube.local.z[0][..n].copy_from_slice(&z[..n]);
         tube.local.normal[..n].copy_from_slice(&normal[..n]);
-        let (equations, inverter) = (&self.equations, &mut self.inverter);
-        match self.test.precision.extended {
-            true => tube.local.refine_extended(equations, inverter),
-            false => tube.local.refine(equations, inverter, 1e-9, 8),
+        let (test, equations) = (&mut self.test, &self.equations);
+        test.refine(equations, &mut tube.local, 1e-9).ok()?;
+        test.expand(equations, &mut tube.local).ok()?;
+        if first {
+            test.prepare(equations, &mut tube, self.max_h);
         }
-        .ok()?;
-        tube.local.expand(&self.equations);
-        let mut proof = None;
-        for _ in 0..rounds {
-            proof = self
-                .test
-                .prove(&self.equations, &tube.local, &mut self.weights, self.max_h);
+        if !test.prove(equations, &mut tube, self.max_h) {
+            return None;
         }
-        tube.proof = proof?;
-        tube.weights.copy_from_slice(self.test.weights());
+        let kept = test.kept();
         tube.exit_at = 0.97 * tube.proof.h;
-        self.test.enclose_exit(&self.equations, &mut tube)?;
-        Some(Sample {
-            tube,
-            a: self.test.moving_matrix().clone(),
-        })
+        test.enclose_exit(equations, &mut tube)?;
+        test.accept(&tube);
+        Some(Proved { tube, kept })
     }
 
-    /// Linked tubes from the sketch on, at most `count`.
-    pub fn chain(&mut self, homotopy: &Homotopy, count: usize) -> Vec<Sample> {
+    /// Linked tubes from the sketch on, at most `count`, each tried so many half lengths behind the exit of the one before.
+    pub fn chain(&mut self, homotopy: &Homotopy, count: usize) -> Vec<Proved<N, T>> {
+        const REACH: f64 = 0.85;
         let first = at_sketch(homotopy, &self.equations, &mut self.inverter)
-            .and_then(|local| self.tube(&local.z[0], &local.normal, 4));
-        let Some(first) = first else {
-            return Vec::new();
-        };
-        let room = self.equations.vector();
-        chain(
-            first,
-            (count, 0.9),
-            room,
-            |sample| &sample.tube,
-            |last, z, normal| {
-                let kept = self.weights.clone();
-                let next = self.tube(z, normal, 1).and_then(|mut next| {
-                    next.tube.entry = last.tube.leads_to(&next.tube)?;
-                    Some(next)
-                });
-                if next.is_none() {
-                    self.weights = kept;
+            .and_then(|local| self.tube(&local.z[0], &local.normal, true));
+        let mut chain: Vec<_> = first.into_iter().collect();
+        let [mut z, mut normal] = [0, 1].map(|_| self.equations.vector());
+        let mut trust = 1.0f64;
+        while let Some(Proved { tube: last, .. }) = chain.last()
+            && chain.len() < count
+            && trust > 1e-6
+        {
+            let advance = last.exit_at + REACH * trust * last.proof.h;
+            last.local.predict(advance, None, &mut z, &mut normal);
+            let next = self.tube(&z, &normal, false).and_then(|mut next| {
+                next.tube.entry = last.leads_to(&next.tube)?;
+                Some(next)
+            });
+            match next {
+                Some(next) => {
+                    chain.push(next);
+                    trust = (1.5 * trust).min(1.0);
                 }
-                next
-            },
-        )
+                None => {
+                    self.test.reject();
+                    trust *= 0.6;
+                }
+            }
+        }
+        chain
+    }
+}
+
+impl Workshop {
+    /// Proves a tube around its middle as it is, with these weights and at most so long: whether that was possible.
+    pub fn prove_as_it_is(&mut self, tube: &mut Tube, mut weights: Vector, max_h: f64) -> bool {
+        let (test, equations) = (&mut self.test, &self.equations);
+        let proof = test.prove(equations, &tube.local, &mut weights, max_h);
+        if let Some(proof) = proof {
+            tube.proof = proof;
+            tube.weights.copy_from_slice(test.weights());
+            tube.exit_at = 0.97 * proof.h;
+        }
+        proof.is_some()
     }
 }

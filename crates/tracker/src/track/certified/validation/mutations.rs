@@ -1,9 +1,11 @@
 //! Faults in the coefficients of equations that are no distances: each is seen by what checks the computed numbers
-//! and their bounds against intervals, for every kind of constraint.
+//! and their bounds against 256 bits, for every kind of constraint.
 //!
 //! Coefficients are put in place three times: as products in lanes (F, its coefficients along a path, and the bounds
 //! of tubes), as rows of the Jacobian (the reduced space), and as a sparse matrix (the full space).
 
+use super::precise::big::{Big, dot, exact};
+use super::precise::{Figure, OWN};
 use super::*;
 use crate::constraint::try_lower;
 use crate::track::full::{Forms, Lengths, Part, Tail};
@@ -22,10 +24,17 @@ enum Check {
     Sparse,
 }
 
+/// What is true of one equation at a point: its residual, its row of the Jacobian, and the sum of its terms without signs.
+struct Truth {
+    residual: Big,
+    row: Vec<Big>,
+    size: Big,
+}
+
 /// Which checks fail for an equation of the tail at a point, along a direction.
 fn failures(
     equations: &Equations,
-    exact: &Exact,
+    truth: &Truth,
     e: usize,
     (z, v): (&Vector, &Vector),
 ) -> Vec<Check> {
@@ -33,34 +42,26 @@ fn failures(
     let (mut d, mut dv, mut none) = (equations.room(), equations.room(), equations.room());
     let mut lengths = Lengths::new(equations);
     let (mut f, mut error) = (equations.vector(), equations.vector());
-    let at: Vec<Interval> = z[..n].iter().map(|&x| point(x)).collect();
-    let misses = |computed: f64, error: f64, exact: Interval| {
-        exact.disjoint(hull(computed - error, computed + error))
+    let misses = |computed: f64, error: f64, exact: &Big| {
+        (exact - &Big::of(computed)).abs() > Big::of(error) + Big::of(OWN)
     };
     let mut out = Vec::new();
     equations.residual_at((z, None), (&mut d, &mut lengths), &mut f, Some(&mut error));
-    if misses(f[e], error[e], exact.residual(&at)[e]) {
+    if misses(f[e], error[e], &truth.residual) {
         out.push(Check::Residual);
     }
-    let row = exact.bordered(&at, &v[..n]).swap_remove(e);
     equations.directions(v, &mut dv);
     equations.jacobian_times(&d, &lengths, &dv, v[m], &mut f[..m]);
     // Of the point itself.
     equations.sums(&equations.vector(), &mut none);
     equations.jacobian_times_error((&d, z[m]), (&none, 0.0), (&dv, v[m]), &mut error[..m]);
-    let along = (0..n).fold(point(0.0), |sum, i| sum + row[i] * point(v[i]));
-    if misses(f[e], error[e], along) {
+    if misses(f[e], error[e], &dot(&truth.row, &exact(&v[..n]))) {
         out.push(Check::Direction);
     }
     // The terms of F without signs, as they are added up for tubes.
     let mut bound = equations.per_edge();
     tail.add_squares_abs(1.0, &d.forms, &mut bound);
-    let terms = exact.homotopy.terms(e);
-    let size = terms.iter().fold(point(0.0), |sum, term| {
-        let half = point(0.5 * f64::from(term.factor));
-        sum + (half * exact.factor(&at, term.left) * exact.factor(&at, term.right)).abs()
-    });
-    if bound[e] * (1.0 + 1e-12) < size.inf() {
+    if Big::of(bound[e] * (1.0 + 1e-12)) < truth.size {
         out.push(Check::Bound);
     }
     // Entries of the row, each with a bound on its terms.
@@ -75,7 +76,7 @@ fn failures(
             per_term * sizes[entry],
             equations.roundings().of_row_bound(),
         );
-        misses(values[entry], error, row[tail.unknown(entry)])
+        misses(values[entry], error, &truth.row[tail.unknown(entry)])
     };
     if tail.row(e).any(wrong) {
         out.push(Check::Row);
@@ -90,7 +91,7 @@ fn failures(
     }
     let wrong = |(&column, &(sum, size)): (&usize, &(f64, f64))| {
         let error = round_up(per_term * size, equations.roundings().of_row_bound());
-        misses(sum, error, row[column])
+        misses(sum, error, &truth.row[column])
     };
     if sums.iter().any(wrong) {
         out.push(Check::Sparse);
@@ -103,7 +104,7 @@ type Tally = BTreeMap<String, [usize; 4]>;
 
 fn mutate(problem: &Problem, random: &mut Random, tally: &mut Tally) {
     let homotopy = Homotopy::new(problem).unwrap();
-    let exact = Exact::new(&homotopy);
+    let figure = Figure::new(problem, &homotopy);
     let sound = Equations::new(&homotopy);
     let Ok(lowered) = try_lower(problem) else {
         panic!("{}", problem.to_toml())
@@ -121,6 +122,8 @@ fn mutate(problem: &Problem, random: &mut Random, tally: &mut Tally) {
     let (mut d, mut dv) = (sound.room(), sound.room());
     sound.differences(&z, &mut d);
     sound.directions(&v, &mut dv);
+    let there = exact(&z[..n]);
+    let (residuals, rows) = (figure.residual(&there), figure.jacobian(&there));
     let objects = problem.objects.len();
     for e in sound.tail.first()..m {
         let owner = lowered.owners[e - homotopy.edges.len()];
@@ -131,14 +134,19 @@ fn mutate(problem: &Problem, random: &mut Random, tally: &mut Tally) {
             },
             None => "object".to_owned(),
         };
+        let truth = Truth {
+            residual: residuals[e].clone(),
+            row: rows[e].clone(),
+            size: figure.size(e, &there),
+        };
         let at = (&z, &v);
-        let failed = failures(&sound, &exact, e, at);
+        let failed = failures(&sound, &truth, e, at);
         assert_eq!(failed, [], "{}: {}", homotopy.names[e], problem.to_toml());
         let counts = tally.entry(kind).or_default();
         let mut see = |part: Part, k: usize, by: f64, check: Check, sort: usize| {
             let mut wrong = sound.clone();
             wrong.tail.spoil(e, part, k, by);
-            let failed = failures(&wrong, &exact, e, at);
+            let failed = failures(&wrong, &truth, e, at);
             assert!(
                 failed.contains(&check),
                 "{check:?} saw nothing: {}, {part:?} {k} by {by}: {}",

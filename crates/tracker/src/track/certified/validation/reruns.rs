@@ -152,24 +152,7 @@ fn compare(problem: &Problem, random: &mut Random, runs: &mut [usize; 3]) {
     }
     // Another size: exact, as decimals are shifted.
     let exponent = [-40, -7, 5, 40][random.below(4)];
-    let shift = |x: &Decimal| times_ten_to(x, exponent);
-    let mut scaled = problem.clone();
-    let done = (|| {
-        for p in &mut scaled.points {
-            for x in &mut p.sketch {
-                *x = shift(x)?;
-            }
-        }
-        for d in &mut scaled.distances {
-            d.target = match &d.target {
-                Target::Length(x) => Target::Length(shift(x)?),
-                Target::SquaredLength(_) => return None,
-            };
-        }
-        scaled.homotopy.bend_coefficient = shift(&scaled.homotopy.bend_coefficient)?;
-        Some(())
-    })();
-    if done.is_some() {
+    if let Some(scaled) = scaled(problem, exponent) {
         others.push((
             format!("10^{exponent}"),
             scaled,

@@ -320,6 +320,11 @@ impl KrawczykTest {
         &self.u
     }
 
+    /// The weights for the next one.
+    pub(in crate::track) fn weights_mut(&mut self) -> &mut Vector {
+        &mut self.next_weights
+    }
+
     /// A of the last proof.
     pub(in crate::track) fn moving_matrix(&self) -> &Matrix {
         &self.a

@@ -4,7 +4,7 @@ use super::Record;
 use crate::linalg::{Matrix, Vector};
 use crate::system::Homotopy;
 use crate::track::full::{Equations, InverseMaker, dot};
-use crate::track::{Control, Options, Outcome, Progress, Status, Stop, StopKind};
+use crate::track::{Control, Options, Outcome, Status, Stop, StopKind};
 use std::time::Instant;
 
 /// δmax of RR 8705, section 7.3.1, without a construction plan.
@@ -134,10 +134,9 @@ impl<'a> Paper<'a> {
                 record.rejected += 1;
                 if step < 2.0 * SMALLEST_STEP {
                     let words = format!(
-                        "the correction fails at the smallest step, {:.1e}, at t = {:.9} after {} steps",
+                        "the correction fails at the smallest step, {:.1e}, {}",
                         step * unit,
-                        self.z[m],
-                        record.steps
+                        record.place(self.z[m])
                     );
                     return Err(Stop::new(StopKind::NoStep, words));
                 }
@@ -160,26 +159,7 @@ impl<'a> Paper<'a> {
             if 2.0 * step <= largest {
                 step *= 2.0;
             }
-            if record.steps >= options.max_steps {
-                let words = format!(
-                    "the limit of {} steps was reached at t = {:.9}",
-                    options.max_steps, self.z[m]
-                );
-                return Err(Stop::new(StopKind::Limit, words));
-            }
-            let progress = Progress {
-                t: self.z[m],
-                steps: record.steps,
-                solutions: record.solutions(),
-                length: record.length,
-            };
-            if control.is_cancelled(progress) {
-                let words = format!(
-                    "interrupted at t = {:.9} after {} steps",
-                    self.z[m], record.steps
-                );
-                return Err(Stop::new(StopKind::Interrupted, words));
-            }
+            record.go_on(self.z[m], options, control)?;
         }
     }
 

@@ -5,7 +5,10 @@ use crate::linalg::{Matrix, Vector};
 use crate::places::array;
 use crate::system::Homotopy;
 use crate::track::full::{Equations, Local, ORDER, Preconditioner};
-use crate::track::{Driving, Mode, Outcome, Space, Status, observed_solutions};
+use crate::track::{
+    Control, Driving, Mode, Options, Outcome, Progress, Space, Status, Stop, StopKind,
+    observed_solutions,
+};
 
 /// Two figures are the same solution if no coordinate differs by more than this times the
 /// figure's size. Newton's method brings them to about 1e-15 times a condition number.
@@ -47,6 +50,36 @@ impl<Y: Preconditioner> Record<Y> {
     /// The number of solutions so far.
     pub fn solutions(&self) -> usize {
         self.found.len()
+    }
+
+    /// Where the run is, in words.
+    pub fn place(&self, t: f64) -> String {
+        format!("at t = {t:.9} after {} steps", self.steps)
+    }
+
+    /// To be called after each step. The error: all steps are taken, or the run is to end.
+    pub fn go_on(&self, t: f64, options: &Options, control: &mut Control) -> Result<(), Stop> {
+        let place = self.place(t);
+        if self.steps >= options.max_steps {
+            let words = format!(
+                "the limit of {} steps was reached {place}",
+                options.max_steps
+            );
+            return Err(Stop::new(StopKind::Limit, words));
+        }
+        let progress = Progress {
+            t,
+            steps: self.steps,
+            solutions: self.solutions(),
+            length: self.length,
+        };
+        match control.is_cancelled(progress) {
+            true => Err(Stop::new(
+                StopKind::Interrupted,
+                format!("interrupted {place}"),
+            )),
+            false => Ok(()),
+        }
     }
 
     /// Corrects `guess` to a solution at t = 1 by Newton's method in X, and keeps it if it is new.

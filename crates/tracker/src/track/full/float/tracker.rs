@@ -11,7 +11,7 @@ use crate::track::events::{Crossing, TimeAlong, halved};
 use crate::track::full::{
     CrossingRoom, Equations, Local, ORDER, Preconditioner, dot, first_normal, path_length,
 };
-use crate::track::{Control, Options, Outcome, Progress, Stop, StopKind};
+use crate::track::{Control, Options, Outcome, Stop, StopKind};
 use std::time::Instant;
 
 /// Points of the path are corrected until the last correction is below this, in the homotopy's
@@ -83,14 +83,11 @@ pub fn follow<Y: Preconditioner>(
     let mut step = FIRST_STEP.min(longest);
     let mut failure = "";
     loop {
-        let place = |record: &Record<Y>, now: &Path<Y>| {
-            format!("at t = {:.9} after {} steps", now.z[0][m], record.steps)
-        };
         if step < SMALLEST_STEP {
             let words = format!(
                 "{failure} at the smallest step, {:.1e}, {}{}",
                 step * homotopy.unit,
-                place(record, &now),
+                record.place(now.z[0][m]),
                 homotopy.remark_on_lengths(now.z[0][m])
             );
             let stop = Stop::new(StopKind::NoStep, words);
@@ -115,7 +112,7 @@ pub fn follow<Y: Preconditioner>(
         if let (Some(ends), Some(name)) = (&ends, passed)
             && step <= located
         {
-            let words = format!("{name} goes to zero {}", place(record, &now));
+            let words = format!("{name} goes to zero {}", record.place(now.z[0][m]));
             let end = ends.undefined(&now.z[0], &next.z[0], &words);
             return Err(Halt {
                 stop: Stop::new(StopKind::Undefined, words),
@@ -168,34 +165,17 @@ pub fn follow<Y: Preconditioner>(
         if let Some(ends) = &ends
             && let Some(away) = ends.away(&now.z[0], &now.z[1])
         {
-            return Err(ends.infinite(&now.z[0], away, &place(record, &now)));
+            return Err(ends.infinite(&now.z[0], away, &record.place(now.z[0][m])));
         }
         if now.z[0][m].abs() > ENDLESS && now.z[0][m] * now.z[1][m] > 0.0 {
             let words = format!(
                 "t has passed {:.1e} and moves away from 0; the path is not followed farther, {}",
                 ENDLESS.copysign(now.z[0][m]),
-                place(record, &now)
+                record.place(now.z[0][m])
             );
             return Err(endless(ends.as_ref(), &now.z[0], words));
         }
-        if record.steps >= options.max_steps {
-            let words = format!(
-                "the limit of {} steps was reached {}",
-                options.max_steps,
-                place(record, &now)
-            );
-            return Err(Stop::new(StopKind::Limit, words).into());
-        }
-        let progress = Progress {
-            t: now.z[0][m],
-            steps: record.steps,
-            solutions: record.solutions(),
-            length: record.length,
-        };
-        if control.is_cancelled(progress) {
-            let words = format!("interrupted {}", place(record, &now));
-            return Err(Stop::new(StopKind::Interrupted, words).into());
-        }
+        record.go_on(now.z[0][m], options, control)?;
     }
 }
 

@@ -263,10 +263,9 @@ impl Test<COEFFICIENTS> for ReducedTest {
 
 #[cfg(test)]
 impl ReducedTest {
-    /// The bounds of the last proof: constant, cubic, width, low, high, and the length they hold for.
-    pub fn stated(&self) -> [f64; 6] {
-        let b = &self.last;
-        [b.constant, b.cubic, b.width, b.low, b.high, b.h]
+    /// The bounds of the last proof.
+    pub fn stated(&self) -> &Bounds {
+        &self.last
     }
 
     /// The bounds for |s| ≤ `h`, whether or not they prove anything, the series being made anew.

@@ -1,7 +1,7 @@
 //! Numbers of 256 bits, and linear algebra with them.
 
 use crate::equations::{Halved, Ring};
-use crate::interval::Interval;
+use crate::interval::{Interval, hull};
 use crate::rational::Rational;
 use dashu_float::FBig;
 use dashu_float::ops::Abs;
@@ -55,6 +55,12 @@ impl Big {
 
     pub fn to_f64(&self) -> f64 {
         self.0.to_f64().value()
+    }
+
+    /// What holds it.
+    pub fn enclosure(&self) -> Interval {
+        let x = self.to_f64();
+        hull(x.next_down(), x.next_up())
     }
 
     /// Up to what 256 bits may be off after some operations: where an interval is a single float.

@@ -1,11 +1,12 @@
 //! The homotopy in 256 bits, from the problem's decimals.
 
 use super::big::{Big, Rows, dot, exact, solve};
-use crate::equations::{Form, left_side, slopes};
+use crate::equations::{Form, Halved as _, left_side, slopes};
 use crate::places::Each as _;
 use crate::problem::{Problem, Target};
 use crate::rational::Rational;
 use crate::system::{Homotopy, Term};
+use nalgebra::DMatrix;
 
 pub struct Figure {
     pub m: usize,
@@ -24,6 +25,26 @@ fn at(z: &[Big]) -> impl Fn(Option<usize>) -> Big {
 impl Figure {
     /// Of a problem, lengths being measured in the homotopy's unit.
     pub fn new(problem: &Problem, homotopy: &Homotopy) -> Self {
+        Self::of(problem, homotopy, |from, to, c| {
+            let slope = to - &from + &c;
+            [from, slope, -c]
+        })
+    }
+
+    /// The same with the target lengths at every t.
+    pub fn at_target(problem: &Problem, homotopy: &Homotopy) -> Self {
+        let nothing = Big::of(0.0);
+        Self::of(problem, homotopy, |_, to, _| {
+            [to, nothing.clone(), nothing.clone()]
+        })
+    }
+
+    /// With lengths a₀ + a₁ t + a₂ t² made of those in the sketch, at the target, and the coefficient of the bend.
+    fn of(
+        problem: &Problem,
+        homotopy: &Homotopy,
+        length: impl Fn(Big, Big, Big) -> [Big; 3],
+    ) -> Self {
         let unit = Big::of(homotopy.unit);
         let lengths = problem.distances.iter().enumerate().map(|(e, distance)| {
             let [a, b] = distance.points.each(|p| &problem.points[p].sketch);
@@ -41,8 +62,7 @@ impl Figure {
             } else {
                 Big::of(0.0)
             };
-            let a1 = target / &unit - &a0 + &c;
-            let a2 = -c;
+            let [a0, a1, a2] = length(a0, target / &unit, c);
             let half = Big::of(0.5);
             [
                 &half * &(&a0 * &a0),
@@ -83,6 +103,14 @@ impl Figure {
             left - right
         };
         (0..self.m).map(row).collect()
+    }
+
+    /// What the terms of one left-hand side add up to without their signs.
+    pub fn size(&self, e: usize, z: &[Big]) -> Big {
+        let terms = self.terms[e].iter();
+        terms
+            .map(|term| term.value(at(z)).halves(term.factor).abs())
+            .sum()
     }
 
     /// J.
@@ -129,26 +157,50 @@ impl Figure {
     pub fn point_near(&self, through: &[Big], c: &[f64]) -> Option<(Vec<Big>, Vec<Big>)> {
         let mut z = through.to_vec();
         let normal = exact(&c[..self.n]);
-        for _ in 0..40 {
+        for round in 0..40 {
             let mut g = self.residual(&z);
             let away: Vec<Big> = z.iter().zip(through).map(|(z, x)| z - x).collect();
             g.push(dot(&normal, &away));
-            let mut right: Rows = g.into_iter().map(|g| vec![g, Big::of(0.0)]).collect();
-            right[self.m][1] = Big::of(1.0);
-            let step = solve(self.bordered(&z, c), right)?;
+            let rows = self.bordered(&z, c);
+            // An inverse in floats is quick, and good enough for all but what is nearly singular.
+            let step = match round < IN_FLOATS {
+                true => times_inverse(&rows, &g)?,
+                false => solved(rows, g)?,
+            };
             let mut size = Big::of(0.0);
-            for (z, step) in z.iter_mut().zip(&step) {
-                *z -= step[0].clone();
-                size = size.max(step[0].abs());
+            for (z, step) in z.iter_mut().zip(step) {
+                size = size.max(step.abs());
+                *z -= step;
             }
             if size < Big::of(1e-60) {
                 // The Jacobian of the last step was at a point nearer than 1e-30.
-                let mut right: Rows = vec![vec![Big::of(0.0)]; self.n];
-                right[self.m][0] = Big::of(1.0);
-                let x = solve(self.bordered(&z, c), right)?;
-                return Some((z, x.into_iter().map(|mut row| row.swap_remove(0)).collect()));
+                let mut right = vec![Big::of(0.0); self.n];
+                right[self.m] = Big::of(1.0);
+                let x = solved(self.bordered(&z, c), right)?;
+                return Some((z, x));
             }
         }
         None
     }
+}
+
+/// So many of Newton's steps are made with inverses in floats.
+const IN_FLOATS: usize = 16;
+
+/// A⁻¹ g.
+fn solved(a: Rows, g: Vec<Big>) -> Option<Vec<Big>> {
+    let columns = g.into_iter().map(|g| vec![g]).collect();
+    let x = solve(a, columns)?.into_iter();
+    Some(x.map(|mut row| row.swap_remove(0)).collect())
+}
+
+/// The same with an inverse that is rounded to floats.
+fn times_inverse(a: &Rows, g: &[Big]) -> Option<Vec<Big>> {
+    let n = a.len();
+    let inverse = DMatrix::from_fn(n, n, |i, j| a[i][j].to_f64()).try_inverse()?;
+    if !inverse.iter().all(|x| x.is_finite()) {
+        return None;
+    }
+    let row = |i: usize| (0..n).map(|j| &Big::of(inverse[(i, j)]) * &g[j]).sum();
+    Some((0..n).map(row).collect())
 }

@@ -6,19 +6,17 @@ use super::reduced::{check_time, within};
 use super::*;
 use crate::generate::Family;
 use crate::interval::rounding::round_up;
-use crate::linalg::Vector;
-use crate::track::certified::link::Ball;
 use crate::track::full::certified::norms::Norms;
 
 /// Ỹ(s) of `tube.rs`, its matrices taken for exact.
 fn preconditioner(sample: &Sample, s: &Big) -> Rows {
-    let n = sample.a.rows();
+    let n = sample.kept.rows();
     let entries = |matrix: &Matrix| -> Rows {
         let row = |i| (0..n).map(|j| Big::of(matrix.get(i, j))).collect();
         (0..n).map(row).collect()
     };
     let y = entries(&sample.tube.local.y);
-    let moved = times(&entries(&sample.a), &y);
+    let moved = times(&entries(&sample.kept), &y);
     let row = |(y, moved): (&Vec<Big>, &Vec<Big>)| {
         y.iter().zip(moved).map(|(y, x)| y - &(x * s)).collect()
     };
@@ -40,24 +38,6 @@ fn times(a: &Rows, b: &Rows) -> Rows {
     a.iter().map(row).collect()
 }
 
-/// |v|_u.
-fn norm(u: &[f64], v: &[Big]) -> Big {
-    v.iter()
-        .zip(u)
-        .map(|(v, &u)| v.abs() / Big::of(u))
-        .fold(Big::of(0.0), Big::max)
-}
-
-/// |M|_u.
-fn norm_of(u: &[f64], m: &Rows) -> Big {
-    let weights = exact(&u[..m.len()]);
-    let row = |(i, row): (usize, &Vec<Big>)| {
-        let sizes: Vec<Big> = row.iter().map(Big::abs).collect();
-        dot(&sizes, &weights) / &weights[i]
-    };
-    m.iter().enumerate().map(row).fold(Big::of(0.0), Big::max)
-}
-
 /// M(s, w) = I − Ỹ(s) DG_s(w).
 fn contraction(figure: &Figure, sample: &Sample, (y, s): (&Rows, &Big), w: &[Big]) -> Rows {
     let z: Vec<Big> = at(&sample.tube, s)
@@ -66,23 +46,7 @@ fn contraction(figure: &Figure, sample: &Sample, (y, s): (&Rows, &Big), w: &[Big
         .zip(w)
         .map(|(z, w)| z + w)
         .collect();
-    let mut out = times(y, &figure.bordered(&z, sample.normal()));
-    for (i, row) in out.iter_mut().enumerate() {
-        for (j, x) in row.iter_mut().enumerate() {
-            *x = Big::of(if i == j { 1.0 } else { 0.0 }) - &*x;
-        }
-    }
-    out
-}
-
-fn in_box(random: &mut Random, u: &[f64], size: f64) -> Vec<Big> {
-    let corner = random.below(2) == 0;
-    u.iter()
-        .map(|&u| {
-            let part = if corner { 1.0 } else { random.unit() };
-            Big::of(random.sign() * part * size) * Big::of(u)
-        })
-        .collect()
+    identity_minus(times(y, &figure.bordered(&z, sample.normal())))
 }
 
 /// What `Norms` states, at one s.
@@ -122,6 +86,26 @@ fn check_norms(
     ratios.check("|c|", &dot(&c, &exact(u)), round_up(norms.normal, n + 2));
 }
 
+/// What a proof says of the path's point at a parameter, and of its direction there: the point, and t'.
+pub fn check_point(
+    figure: &Figure,
+    tube: &Tube,
+    place: f64,
+    ratios: &mut Ratios,
+) -> Option<(Vec<Big>, Big)> {
+    let (n, proof) = (figure.n, &tube.proof);
+    let (u, c) = (&tube.weights[..n], &tube.local.normal[..n]);
+    let (through, slope) = at(tube, &Big::of(place));
+    let (z, tangent) = figure.point_near(&through, c)?;
+    let away: Vec<Big> = z.iter().zip(&through).map(|(z, x)| z - x).collect();
+    ratios.check("distance", &norm(u, &away), proof.distance);
+    let advance = dot(&exact(c), &slope);
+    let turned: Vec<Big> = (0..n).map(|i| &tangent[i] * &advance - &slope[i]).collect();
+    ratios.check("slope_distance", &norm(u, &turned), proof.slope_distance);
+    let rate = &tangent[n - 1] * &advance;
+    Some((z, rate))
+}
+
 /// What a proof says of the path: its point, its direction, its t, where it is found.
 pub fn check_path(
     figure: &Figure,
@@ -130,17 +114,10 @@ pub fn check_path(
     ratios: &mut Ratios,
 ) -> Option<()> {
     let (n, tube) = (figure.n, &sample.tube);
-    let (proof, u, c) = (&tube.proof, &tube.weights[..n], &sample.normal()[..n]);
+    let (proof, u) = (&tube.proof, &tube.weights[..n]);
     let place = parameter(random, proof.h);
     let s = Big::of(place);
-    let (through, slope) = at(tube, &s);
-    let (z, tangent) = figure.point_near(&through, c)?;
-    let away: Vec<Big> = z.iter().zip(&through).map(|(z, x)| z - x).collect();
-    ratios.check("distance", &norm(u, &away), proof.distance);
-    let advance = dot(&exact(c), &slope);
-    let turned: Vec<Big> = (0..n).map(|i| &tangent[i] * &advance - &slope[i]).collect();
-    ratios.check("slope_distance", &norm(u, &turned), proof.slope_distance);
-    let rate = &tangent[n - 1] * &advance;
+    let (z, rate) = check_point(figure, tube, place, ratios)?;
     check_time(
         &tube.time(),
         (place, proof.h),
@@ -155,24 +132,18 @@ pub fn check_path(
         &norm_of(u, &contraction(figure, sample, (&y, &s), &w)),
         proof.q,
     );
-    let mut ball = Ball {
-        centre: tube.exit.centre.clone(),
-        radius: tube.exit.radius.clone(),
-        low: Vector::zeros(n + 1),
-    };
-    for i in 0..n {
-        ball.centre[i] = z[i].to_f64();
-        let mut left = &z[i] - &Big::of(ball.centre[i]);
-        if tube.local.is_extended {
-            ball.low[i] = left.to_f64();
-            left -= Big::of(ball.low[i]);
-        }
-        ball.radius[i] = left.abs().to_f64().next_up();
-    }
-    if let Some(between) = tube.locate(&ball) {
+    if let Some(between) = tube.locate(&ball_at(tube, &z)) {
         within("its own parameter", &s, between, ratios);
     }
     Some(())
+}
+
+/// A point, and the ball that it is said to be in.
+pub fn check_ball(name: &'static str, z: &[Big], ball: &Ball, ratios: &mut Ratios) {
+    for (i, z) in z.iter().enumerate() {
+        let away = z - &Big::of(ball.centre[i]) - Big::of(ball.low[i]);
+        ratios.check(name, &away.abs(), ball.radius[i]);
+    }
 }
 
 /// The exit's box, also as tight as it gets, with the tangent; and the next tube's entry.
@@ -189,11 +160,9 @@ pub fn check_exit(
     workshop
         .test
         .tighten_exit(&workshop.equations, &mut tight)?;
+    check_ball("exit", &z, &sample.tube.exit, ratios);
+    check_ball("tight exit", &z, &tight.exit, ratios);
     for i in 0..n {
-        let away = |b: &Ball| (&z[i] - &Big::of(b.centre[i]) - Big::of(b.low[i])).abs();
-        let (exit, tight_exit) = (&sample.tube.exit, &tight.exit);
-        ratios.check("exit", &away(exit), exit.radius[i]);
-        ratios.check("tight exit", &away(tight_exit), tight_exit.radius[i]);
         let turned = (&x[i] - &Big::of(tight.exit_slope[i])).abs();
         let bound = round_up(tight.exit_slope_radius * tight.weights[i], 1);
         ratios.check("tight tangent", &turned, bound);
@@ -206,7 +175,7 @@ pub fn check_exit(
 
 /// The numbers of a tube changed in some way: ẑ's coefficients, one of them, or Y's entries.
 fn changed(sample: &Sample, kind: usize, equations: &Equations, random: &mut Random) -> Sample {
-    let (n, mut tube) = (sample.a.rows(), sample.tube.clone());
+    let (n, mut tube) = (sample.kept.rows(), sample.tube.clone());
     let size = 10f64.powf(random.between(-9.0, -2.0));
     let local = &mut tube.local;
     match kind {
@@ -229,7 +198,7 @@ fn changed(sample: &Sample, kind: usize, equations: &Equations, random: &mut Ran
     settle(equations, local);
     Sample {
         tube,
-        a: sample.a.clone(),
+        kept: sample.kept.clone(),
     }
 }
 
@@ -264,7 +233,7 @@ fn check_problem(
             let norms = workshop
                 .test
                 .norms(equations, &tube.local, &tube.weights, h);
-            sample.a = workshop.test.moving_matrix().clone();
+            sample.kept = workshop.test.kept();
             if let Some(norms) = norms {
                 for _ in 0..rounds {
                     check_norms(figure, (&sample, &norms), random, ratios);
@@ -355,8 +324,8 @@ fn the_bend_counts_to_its_last_order_in_the_full_space() {
         .norms(equations, local, &tube.weights, 1.0)
         .expect("bounds");
     assert_eq!(norms.h, 1.0);
-    let a = workshop.test.moving_matrix().clone();
-    let (sample, mut random) = (Sample { tube, a }, Random::new(46));
+    let kept = workshop.test.kept();
+    let (sample, mut random) = (Sample { tube, kept }, Random::new(46));
     for _ in 0..40 {
         check_norms(&figure, (&sample, &norms), &mut random, &mut ratios);
     }

@@ -163,9 +163,8 @@ fn lengths_sketches_and_residuals_are_enclosed() {
         if let Ok(homotopy) = Homotopy::new(problem) {
             check((problem, &homotopy), &mut random, &mut ratios);
         }
-        let disguised = Disguised::new(problem, 0.7, &mut random);
-        if let Some(homotopy) = disguised.homotopy() {
-            check((&disguised.rest, &homotopy), &mut random, &mut ratios);
+        if let Some((rest, homotopy)) = Disguised::new(problem, 0.7, &mut random).with_homotopy() {
+            check((&rest, &homotopy), &mut random, &mut ratios);
         }
     }
     ratios.come_near(&[

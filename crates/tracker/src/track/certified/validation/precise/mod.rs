@@ -5,24 +5,26 @@
 //! theorems hold whatever they are, so that some tests change them on purpose, which makes terms
 //! large that are otherwise of rounding's size.
 
-mod big;
+pub mod big;
 mod contraction;
 mod extended;
 mod figure;
 mod folds;
-mod full;
+pub mod full;
 mod given;
 mod moved;
-mod reduced;
+pub mod reduced;
 mod shears;
 mod short_tubes;
-mod view;
+pub mod view;
+
+pub use figure::Figure;
 
 use super::disguise::{Disguised, run};
 use super::*;
 use crate::track::Status;
+use crate::track::certified::link::Ball;
 use big::{Big, Rows, dot, exact, horner, horner_slope, solve};
-use figure::Figure;
 use std::collections::BTreeMap;
 
 /// How near the true values come to what bounds them: the largest ratio by name, and how many there were.
@@ -31,7 +33,7 @@ pub struct Ratios(BTreeMap<&'static str, (usize, f64)>);
 
 /// What 256 bits themselves may be off, many orders below any bound: numbers here are of the size
 /// 1e-12 to 1e6, and no condition is beyond 1e6.
-const OWN: f64 = 1e-62;
+pub const OWN: f64 = 1e-62;
 
 impl Ratios {
     /// A true value and its bound.
@@ -128,10 +130,9 @@ pub fn tails(seed: u64, count: usize) -> Vec<(Problem, Homotopy)> {
             let dimension = 2 + round % 2;
             let points = dimension + 1 + random.below(4);
             let plain = random_problem(&mut random, dimension, points, 0.3);
-            let disguised = Disguised::new(&plain, 0.8, &mut random);
-            let homotopy = disguised.homotopy()?;
-            let closes = run(&homotopy, false).status == Status::Closed;
-            closes.then_some((disguised.rest, homotopy))
+            let disguised = Disguised::new(&plain, 0.8, &mut random).with_homotopy()?;
+            let closes = run(&disguised.1, false).status == Status::Closed;
+            closes.then_some(disguised)
         })
         .collect();
     assert!(3 * list.len() > 2 * count - 2);
@@ -188,6 +189,61 @@ pub fn at<const N: usize, Y>(tube: &Tube<N, Y>, s: &Big) -> (Vec<Big>, Vec<Big>)
             .collect(),
         all.map(|i| horner_slope(&of(i), s)).collect(),
     )
+}
+
+/// max |v_i| / u_i.
+pub fn norm(u: &[f64], v: &[Big]) -> Big {
+    v.iter()
+        .zip(u)
+        .map(|(v, &u)| v.abs() / Big::of(u))
+        .fold(Big::of(0.0), Big::max)
+}
+
+/// The norm of a matrix that belongs to it.
+pub fn norm_of(u: &[f64], m: &Rows) -> Big {
+    let weights = exact(&u[..m.len()]);
+    let row = |(i, row): (usize, &Vec<Big>)| {
+        let sizes: Vec<Big> = row.iter().map(Big::abs).collect();
+        dot(&sizes, &weights) / &weights[i]
+    };
+    m.iter().enumerate().map(row).fold(Big::of(0.0), Big::max)
+}
+
+/// A corner of the box of so many times the size u, or any of its points.
+pub fn in_box(random: &mut Random, u: &[f64], size: f64) -> Vec<Big> {
+    let corner = random.below(2) == 0;
+    u.iter()
+        .map(|&u| {
+            let part = if corner { 1.0 } else { random.unit() };
+            Big::of(random.sign() * part * size) * Big::of(u)
+        })
+        .collect()
+}
+
+/// I − M.
+pub fn identity_minus(mut m: Rows) -> Rows {
+    for (i, row) in m.iter_mut().enumerate() {
+        for (j, x) in row.iter_mut().enumerate() {
+            *x = Big::of(if i == j { 1.0 } else { 0.0 }) - &*x;
+        }
+    }
+    m
+}
+
+/// A point as exits are kept: its nearest floats, with low words where the tube has such, and what is left.
+pub fn ball_at<const N: usize, Y>(tube: &Tube<N, Y>, z: &[Big]) -> Ball {
+    let mut ball = tube.exit.clone();
+    ball.low.fill(0.0);
+    for (i, z) in z.iter().enumerate() {
+        ball.centre[i] = z.to_f64();
+        let mut left = z - &Big::of(ball.centre[i]);
+        if tube.local.is_extended {
+            ball.low[i] = left.to_f64();
+            left -= Big::of(ball.low[i]);
+        }
+        ball.radius[i] = left.abs().to_f64().next_up();
+    }
+    ball
 }
 
 /// Whether a point of the path is in a tube between these parameters.

@@ -2,7 +2,6 @@
 //! blocks' inverses may be any numbers, and the lengths anything within their radii. What is of
 //! rounding's size along a run is large here.
 
-use super::super::reduced::{ReducedTube, Shop};
 use super::reduced::{check_bounds, check_path, check_resolvent, check_speed};
 use super::view::View;
 use super::*;
@@ -144,7 +143,7 @@ fn check_problem(
     seen: &mut Seen,
 ) {
     let true_figure = Figure::new(problem, homotopy);
-    let mut shop = Shop::new(homotopy, [0.05, 0.1, 0.2][random.below(3)], f64::INFINITY);
+    let mut shop = Shop::with_alpha(homotopy, [0.05, 0.1, 0.2][random.below(3)], f64::INFINITY);
     let chain = shop.chain(homotopy, 40);
     let stride = (chain.len() / tubes).max(1);
     for sample in chain.iter().step_by(stride) {
@@ -209,11 +208,7 @@ fn reduced_bounds_hold_whatever_the_numbers_kept() {
             list.push(random_problem(&mut random, dimension, points, 0.3));
         }
     }
-    let list = list.into_iter().map(|problem| {
-        let homotopy = Homotopy::new(&problem).expect("a gauge");
-        (problem, homotopy)
-    });
-    check_all(list, &mut random);
+    check_all(with_homotopies(list), &mut random);
 }
 
 #[test]

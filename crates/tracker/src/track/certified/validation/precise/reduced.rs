@@ -1,14 +1,15 @@
 //! Bounds of the reduced space along certified runs.
 
-use super::super::reduced::{Proved, ReducedTube, Shop, right_hand_sides};
+use super::super::reduced::right_hand_sides;
 use super::big::{exact, horner};
+use super::full::check_ball;
 use super::view::View;
 use super::*;
 use crate::generate::Family;
 use crate::interval::rounding::round_up;
-use crate::linalg::{LANE, Vector};
+use crate::linalg::LANE;
 use crate::places::Each as _;
-use crate::track::certified::link::{Ball, Frame};
+use crate::track::certified::link::Frame;
 use crate::track::certified::tracker::Test;
 use crate::track::reduced::certified::{Bounds, COEFFICIENTS};
 
@@ -203,21 +204,39 @@ pub fn check_path(view: &View, random: &mut Random, ratios: &mut Ratios) -> Opti
     let v = view.in_box(random, proof.r);
     ratios.check("q", &view.norm_of(&view.derivative(&s, &v)?), proof.q);
 
-    // The extent of a float near the path.
-    let near: Vec<f64> = z.iter().map(Big::to_f64).collect();
-    let away: Vec<Big> = near
-        .iter()
-        .zip(&through)
-        .map(|(z, x)| Big::of(*z) - x)
-        .collect();
-    let extent = view.norm(&view.sheared(&k, &away, true));
-    let entry = |i: usize| {
-        let away = near[i] - tube.local.entry_at(i, at);
-        let error = evaluation_error(&tube.local, i, at) + 2.0 * f64::EPSILON * away.abs();
-        (away, error)
+    // The extents of floats near the path, and anywhere in the tube.
+    let minus = |a: &[Big], b: &[Big]| a.iter().zip(b).map(|(a, b)| a - b).collect::<Vec<_>>();
+    let mut check_extent = |name: &'static str, x: &[f64]| {
+        let before = view.sheared(&k, &minus(&exact(x), &through), true);
+        let entry = |i: usize| {
+            let away = x[i] - tube.local.entry_at(i, at);
+            let error = evaluation_error(&tube.local, i, at) + 2.0 * f64::EPSILON * away.abs();
+            (away, error)
+        };
+        let stated = Frame::extent(y, &tube.weights[..n], at, entry, entry);
+        ratios.check(name, &view.norm(&before), stated);
+        before
     };
-    let stated = Frame::extent(y, &tube.weights[..n], at, entry, entry);
-    ratios.check("extent", &extent, stated);
+    let near: Vec<f64> = z.iter().map(Big::to_f64).collect();
+    check_extent("extent", &near);
+    let w = view.sheared(&k, &view.in_box(random, 0.9), false);
+    let stays: Vec<f64> = through
+        .iter()
+        .zip(&w)
+        .map(|(x, w)| (x + w).to_f64())
+        .collect();
+    let before = check_extent("extent of a point that stays", &stays);
+    // It changes as s goes on.
+    let step = 0.09 / y.speed * random.unit();
+    let to = if at > 0.0 { at - step } else { at + step };
+    if to.abs() <= proof.h {
+        let there = Big::of(to);
+        let away = minus(&exact(&stays), &view.at(&there).0);
+        let after = view.sheared(&view.k(&there), &away, true);
+        let most = (point(y.speed) * (point(to) - point(at)).abs()).sup();
+        let change = view.norm(&minus(&after, &before));
+        ratios.check("change of an extent", &change, most);
+    }
     for (i, x) in through.iter().enumerate() {
         let error = (Big::of(tube.local.entry_at(i, at)) - x).abs();
         ratios.check(
@@ -228,17 +247,8 @@ pub fn check_path(view: &View, random: &mut Random, ratios: &mut Ratios) -> Opti
     }
 
     // The point is found at its own parameter.
-    let mut ball = Ball {
-        centre: tube.exit.centre.clone(),
-        radius: tube.exit.radius.clone(),
-        low: Vector::zeros(n + 1),
-    };
-    for i in 0..n {
-        ball.centre[i] = near[i];
-        ball.radius[i] = (z[i].clone() - Big::of(near[i])).abs().to_f64().next_up();
-    }
-    if let Some((lo, hi)) = tube.locate(&ball) {
-        within("its own parameter", &s, (lo, hi), ratios);
+    if let Some(between) = tube.locate(&ball_at(tube, &z)) {
+        within("its own parameter", &s, between, ratios);
     }
     Some(())
 }
@@ -277,38 +287,31 @@ pub fn within(name: &'static str, x: &Big, (lo, hi): (f64, f64), ratios: &mut Ra
     );
 }
 
-/// The exit's box, before and after it is tightened, and the next tube's entry.
+/// The exit's box, before and after it is tightened, and the next tube's entry. Whether it can be tightened.
 pub fn check_exit(
     shop: &mut Shop,
     figure: &Figure,
-    sample: &Proved,
-    next: Option<&Proved>,
+    sample: &ReducedSample,
+    next: Option<&ReducedSample>,
     ratios: &mut Ratios,
-) -> Option<()> {
+) -> Option<bool> {
     let (n, tube) = (figure.n, &sample.tube);
     let c = &tube.local.normal[..n];
     let (through, _) = at(tube, &Big::of(tube.exit_at));
     let (z, x) = figure.point_near(&through, c)?;
-    let away = |z: &[Big], i: usize, centre: f64| (&z[i] - &Big::of(centre)).abs();
-    for i in 0..n {
-        ratios.check(
-            "exit",
-            &away(&z, i, tube.exit.centre[i]),
-            tube.exit.radius[i],
-        );
-    }
+    check_ball("exit", &z, &tube.exit, ratios);
     if let Some(next) = next {
         check_entry(&next.tube, (&z, &x));
     }
     let mut tight = tube.clone();
-    if shop
-        .test
-        .tighten_exit(&shop.equations, &mut tight)
-        .is_none()
-    {
-        return Some(());
+    let tightened = shop.test.tighten_exit(&shop.equations, &mut tight);
+    if tightened.is_none() {
+        // What was proved before still is.
+        check_ball("exit", &z, &tight.exit, ratios);
+        return Some(false);
     }
-    check_tied(figure, tube, &tight, ratios)
+    check_tied(figure, tube, &tight, ratios)?;
+    Some(true)
 }
 
 /// The exit of a tube that was tightened: its point, its parameter, its tangent.
@@ -339,24 +342,35 @@ pub fn check_tied(
     Some(())
 }
 
-fn check_problem(
+/// Some tubes of a path, so often each, by a test with this α and tubes of at most this length: how many there were, and how many
+/// of their exits can be tightened.
+pub fn check_problem(
     (problem, homotopy): (&Problem, &Homotopy),
+    (alpha, max_h): (f64, f64),
     (tubes, rounds): (usize, usize),
     random: &mut Random,
     ratios: &mut Ratios,
-) {
+) -> [usize; 2] {
     let figure = Figure::new(problem, homotopy);
-    let mut shop = Shop::new(homotopy, 0.1, f64::INFINITY);
+    let mut shop = Shop::with_alpha(homotopy, alpha, max_h);
     let chain = shop.chain(homotopy, 600);
-    assert!(!chain.is_empty(), "{}", problem.name);
     let stride = (chain.len() / tubes).max(1);
+    let mut counts = [0; 2];
     for k in (0..chain.len()).step_by(stride) {
+        let Proved {
+            tube,
+            kept: (bounds, defect),
+        } = &chain[k];
+        assert!(tube.proof.h <= bounds.h && tube.proof.r <= 1.0);
+        let view = View::new(&figure, tube);
         for _ in 0..rounds {
-            check_path(&View::new(&figure, &chain[k].tube), random, ratios)
-                .expect("a regular point");
+            check_path(&view, random, ratios).expect("a regular point");
+            check_bounds(&view, (bounds, defect), random, ratios).expect("a regular A");
+            check_resolvent(&view, &shop.equations, bounds.h, random, ratios).expect("a regular A");
         }
-        check_exit(&mut shop, &figure, &chain[k], chain.get(k + 1), ratios)
-            .expect("a regular point");
+        let tightened = check_exit(&mut shop, &figure, &chain[k], chain.get(k + 1), ratios);
+        counts[0] += 1;
+        counts[1] += usize::from(tightened.expect("a regular point"));
         // The bounds are those of the test, whose box is that of the tube proved last.
         let mut again = chain[k].tube.clone();
         let h = again.proof.h * [1.0, 0.1, 1e-3][random.below(3)];
@@ -372,6 +386,7 @@ fn check_problem(
             check_speed(&view, (h, 1.0, speed), random, ratios);
         }
     }
+    counts
 }
 
 fn check_homotopies(
@@ -382,8 +397,9 @@ fn check_homotopies(
     let (mut ratios, mut random) = (Ratios::default(), Random::new(seed));
     for (problem, homotopy) in list {
         let given = (&problem, &homotopy);
-        let counts = (effort(tubes), rounds);
-        check_problem(given, counts, &mut random, &mut ratios)
+        let (how, counts) = ((0.1, f64::INFINITY), (effort(tubes), rounds));
+        let [tubes, _] = check_problem(given, how, counts, &mut random, &mut ratios);
+        assert!(tubes > 0, "{}", problem.name);
     }
     ratios
 }

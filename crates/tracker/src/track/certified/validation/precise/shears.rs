@@ -1,6 +1,5 @@
 //! Single bounds of the reduced space, each against what it bounds.
 
-use super::super::reduced::Shop;
 use super::big::{exact, horner};
 use super::reduced::{check_bounds, check_speed};
 use super::view::View;
@@ -18,7 +17,7 @@ fn check_problem(
 ) {
     let figure = Figure::new(problem, homotopy);
     let (n, m) = (figure.n, figure.m);
-    let mut shop = Shop::new(homotopy, 0.1, f64::INFINITY);
+    let mut shop = Shop::new(homotopy, f64::INFINITY);
     let chain = shop.chain(homotopy, 100);
     let stride = (chain.len() / tubes).max(1);
     for sample in chain.iter().step_by(stride) {
@@ -140,7 +139,7 @@ fn the_bend_counts_to_its_last_order() {
     let problem = triangle();
     let homotopy = Homotopy::new(&problem).expect("a gauge");
     let figure = Figure::new(&problem, &homotopy);
-    let mut shop = Shop::new(&homotopy, 0.1, f64::INFINITY);
+    let mut shop = Shop::new(&homotopy, f64::INFINITY);
     let (n, m) = (figure.n, figure.m);
     let mut tube = Tube::new(&shop.equations);
     tube.local.z[0] = sketch(&homotopy, &shop.equations);

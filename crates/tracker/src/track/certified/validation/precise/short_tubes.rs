@@ -1,22 +1,21 @@
 //! Exits that are enclosed again by a very short tube (`reduced/exit.rs`, `enclose_by_short_tube`): what once went wrong
 //! there, and what its box rests on.
 
-use super::super::reduced::{Proved, Shop};
 use super::reduced::check_tied;
 use super::*;
 use crate::track::certified::tracker::Test;
 
-fn chain_of(name: &str, count: usize) -> (Figure, Shop, Vec<Proved>) {
+fn chain_of(name: &str, count: usize) -> (Figure, Shop, Vec<ReducedSample>) {
     let problem = &problems(&[name])[0];
     let homotopy = Homotopy::new(problem).expect("a gauge");
-    let mut shop = Shop::new(&homotopy, 0.1, f64::INFINITY);
+    let mut shop = Shop::new(&homotopy, f64::INFINITY);
     let chain = shop.chain(&homotopy, count);
     assert_eq!(chain.len(), count);
     (Figure::new(problem, &homotopy), shop, chain)
 }
 
 /// The exit of the one is that of the other, to the last bit.
-fn is_untouched(a: &Proved, b: &super::super::reduced::ReducedTube) -> bool {
+fn is_untouched(a: &ReducedSample, b: &ReducedTube) -> bool {
     a.tube.exit.centre[..] == b.exit.centre[..]
         && a.tube.exit.radius[..] == b.exit.radius[..]
         && a.tube.exit_between == b.exit_between

@@ -1,7 +1,6 @@
 //! A tube of the reduced space in exact numbers: ẑ, K, 𝒴, T and Φ' of `reduced/test.rs`.
 
-use super::super::reduced::ReducedTube;
-use super::big::{exact, horner, horner_slope};
+use super::big::{horner, horner_slope};
 use super::*;
 use crate::linalg::LANE;
 use crate::places::Each as _;
@@ -90,11 +89,7 @@ impl<'a> View<'a> {
 
     /// |v|_ρ.
     pub fn norm(&self, v: &[Big]) -> Big {
-        let rho = self.tube.local.y.rho.iter();
-        v.iter()
-            .zip(rho)
-            .map(|(v, &rho)| v.abs() / Big::of(rho))
-            .fold(Big::of(0.0), Big::max)
+        norm(&self.tube.local.y.rho, v)
     }
 
     /// 𝒴(s) G, G having a row per equation, the normal's last.
@@ -144,34 +139,18 @@ impl<'a> View<'a> {
                 }
             }
         }
-        let mut product = self.preconditioned(s, &rows)?;
-        for (i, row) in product.iter_mut().enumerate() {
-            for (j, x) in row.iter_mut().enumerate() {
-                *x = Big::of(if i == j { 1.0 } else { 0.0 }) - &*x;
-            }
-        }
+        let product = self.preconditioned(s, &rows)?;
         assert_eq!(product.len(), n);
-        Some(product)
+        Some(identity_minus(product))
     }
 
     /// |M|_ρ.
     pub fn norm_of(&self, m: &Rows) -> Big {
-        let rho = exact(&self.tube.local.y.rho[..self.figure.n]);
-        let row = |(i, row): (usize, &Vec<Big>)| {
-            let sizes: Vec<Big> = row.iter().map(Big::abs).collect();
-            dot(&sizes, &rho) / &rho[i]
-        };
-        m.iter().enumerate().map(row).fold(Big::of(0.0), Big::max)
+        norm_of(&self.tube.local.y.rho, m)
     }
 
-    /// A corner of the box of the given size, or any of its points.
+    /// A point in the box of the given size.
     pub fn in_box(&self, random: &mut Random, size: f64) -> Vec<Big> {
-        let corner = random.below(2) == 0;
-        (0..self.figure.n)
-            .map(|i| {
-                let part = if corner { 1.0 } else { random.unit() };
-                Big::of(random.sign() * part * size) * Big::of(self.tube.local.y.rho[i])
-            })
-            .collect()
+        in_box(random, &self.tube.local.y.rho[..self.figure.n], size)
     }
 }
