@@ -330,10 +330,7 @@ impl Explorer {
             cancel: options.cancel,
             deadline: options.time.map(|time| clock + time),
         };
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(options.jobs)
-            .build()
-            .map_err(|e| ExploreError::Threads(e.to_string()))?;
+        let pool = super::pool(options.jobs)?;
         let jobs = pool.current_num_threads();
         let mut change = Change::default();
         if options.take_back {
@@ -526,17 +523,8 @@ fn prove_again(homotopy: &Homotopy, met: &mut Met) -> bool {
 struct Undecided;
 
 fn broken(id: u64) -> PathRecord {
-    PathRecord {
-        id,
-        end: End::Stopped,
-        reason: Some("this is a bug in krawl, please report it".to_owned()),
-        by: None,
-        tubes: 0,
-        seconds: 0.0,
-        solutions: Vec::new(),
-        starts: Vec::new(),
-        degenerate: 0,
-    }
+    let reason = "this is a bug in krawl, please report it".to_owned();
+    PathRecord::new(id, End::Stopped, Some(reason))
 }
 
 /// Whether sketches can be made for a problem.
