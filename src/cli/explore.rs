@@ -108,11 +108,7 @@ fn seconds_or_none(text: &str) -> Result<f64, String> {
 }
 
 /// Runs the verb and returns the exit code.
-pub fn run(arguments: &Arguments) -> u8 {
-    output::exit_code(try_run(arguments))
-}
-
-fn try_run(arguments: &Arguments) -> Result<u8, String> {
+pub fn run(arguments: &Arguments) -> Result<u8, String> {
     let file = arguments.file.display();
     let (problem, published) = read(arguments)?;
     output::say_if_signs_are_not_looked_at(&problem);

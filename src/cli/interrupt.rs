@@ -2,7 +2,7 @@
 
 use krawl::track::Control;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 static REQUESTED: AtomicBool = AtomicBool::new(false);
 
@@ -26,6 +26,11 @@ pub fn control<'a>() -> Control<'a> {
         cancel: Some(flag()),
         ..Control::default()
     }
+}
+
+/// When so many seconds are over.
+pub fn deadline(seconds: Option<f64>) -> Option<Instant> {
+    seconds.map(|s| Instant::now() + Duration::from_secs_f64(s))
 }
 
 /// How long a verb may take.
