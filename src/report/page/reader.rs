@@ -2,7 +2,7 @@
 
 use super::{Bar, Figure, Label, Page, Shape, outlines};
 use crate::interval::hull;
-use crate::interval::vector::cross;
+use crate::interval::vector::{cross, minus};
 use crate::places::array;
 use crate::report::certain_digits;
 use crate::report::columns::DIGITS;
@@ -426,14 +426,12 @@ impl<'a> Reader<'a> {
                 ("line", _) if !at.is_null() => {
                     outlines::line(points, there(place("point")?), turn(place("direction")?))
                 }
-                ("line", &[a, b]) => {
-                    outlines::line(points, a, outlines::unit(outlines::from(a, b))?)
-                }
+                ("line", &[a, b]) => outlines::line(points, a, outlines::unit(minus(b, a))?),
                 ("plane", _) if !at.is_null() => {
                     outlines::plane(points, there(place("point")?), turn(place("normal")?))
                 }
                 ("plane", &[a, b, c]) => {
-                    let normal = cross(outlines::from(a, b), outlines::from(a, c));
+                    let normal = cross(minus(b, a), minus(c, a));
                     outlines::plane(points, a, outlines::unit(normal)?)
                 }
                 ("circle" | "sphere", &[center]) => {
