@@ -1,6 +1,7 @@
 //! Ctrl-C: once to stop cleanly, twice to stop at once; and `--time`, which is as Ctrl-C after so many seconds.
 
-use krawl::track::Control;
+use krawl::report::ProgressLine;
+use krawl::track::{Control, Progress};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
@@ -26,6 +27,18 @@ pub fn control<'a>() -> Control<'a> {
         cancel: Some(flag()),
         ..Control::default()
     }
+}
+
+/// Runs something that the first Ctrl-C stops, and shows where it is if that is `wanted`; `what` says what is at work.
+pub fn shown<T>(wanted: bool, what: &str, run: impl FnOnce(&mut Control) -> T) -> T {
+    let line = ProgressLine::new(wanted, what);
+    let mut show = |now: Progress| line.show(now);
+    let done = run(&mut Control {
+        progress: Some(&mut show),
+        ..control()
+    });
+    line.clear();
+    done
 }
 
 /// When so many seconds are over.
