@@ -119,11 +119,7 @@ fn share(text: &str) -> Result<[usize; 2], String> {
 }
 
 /// Runs the verb and returns the exit code.
-pub fn run(arguments: &Arguments) -> u8 {
-    output::exit_code(try_run(arguments))
-}
-
-fn try_run(arguments: &Arguments) -> Result<u8, String> {
+pub fn run(arguments: &Arguments) -> Result<u8, String> {
     let (file, sketch) = (&arguments.file, arguments.sketch.as_deref());
     arguments.take.check(file)?;
     let (asked, skeleton) = input::asked(

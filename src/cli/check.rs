@@ -1,6 +1,7 @@
 //! `krawl check`: reads a problem and prints what it understood.
 
 use super::{BAD_INPUT, CLOSED, OVER, input, output};
+use crate::report::names;
 use krawl::blocks::{Census, Finding, MOST_POINTS, Surplus, Why, clusters, pinned, surplus};
 use krawl::edit::{Decomposition, Standing, TooMany};
 use krawl::import::{self, Format};
@@ -44,16 +45,12 @@ pub struct Arguments {
 const PATTERN: usize = 40;
 
 /// Runs the verb and returns the exit code.
-pub fn run(arguments: &Arguments) -> u8 {
-    output::exit_code(try_run(arguments))
-}
-
-fn try_run(arguments: &Arguments) -> Result<u8, String> {
+pub fn run(arguments: &Arguments) -> Result<u8, String> {
     let printed = |text: &str, code| match output::print(text) {
         true => Ok(code),
         false => Ok(BAD_INPUT),
     };
-    let format = Format::of(&arguments.file.display().to_string());
+    let format = input::format(&arguments.file);
     let is_molecule = matches!(format, Some(Format::Xyz | Format::Sdf | Format::Pdb));
     if format.is_some()
         && !(is_molecule && arguments.sketch.is_some())
@@ -215,7 +212,7 @@ struct Loose {
 impl Loose {
     /// None of any other file that cannot be read.
     fn of(file: &Path) -> Option<Self> {
-        if file == Path::new("-") || Format::of(&file.display().to_string()).is_some() {
+        if file == Path::new("-") || input::format(file).is_some() {
             return None;
         }
         let error = match input::made(file) {
@@ -571,10 +568,7 @@ fn frame(problem: &Problem) -> (&'static str, String) {
         };
         return ("frame", format!("the sketch's own coordinates{held}"));
     }
-    let names: Vec<&str> = reference
-        .iter()
-        .map(|&p| problem.points[p].name.as_str())
-        .collect();
+    let names = names(problem, reference);
     let in_one_body = problem.objects.iter().any(|object| {
         let points = object.points();
         object.kind(problem.dimension) == "body" && reference.iter().all(|p| points.contains(p))
@@ -594,10 +588,7 @@ fn frame(problem: &Problem) -> (&'static str, String) {
 
 /// What is said of an object.
 fn object_line(problem: &Problem, object: &Object) -> String {
-    let names = |points: &[usize]| {
-        let names = points.iter().map(|&p| problem.points[p].name.as_str());
-        names.collect::<Vec<_>>().join(", ")
-    };
+    let names = |points: &[usize]| names(problem, points).join(", ");
     let name = &object.name;
     match &object.shape {
         Shape::Line(points) => format!("{name}, the line through {}", names(points)),

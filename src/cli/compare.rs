@@ -64,11 +64,7 @@ struct Subject {
 }
 
 /// Runs the verb and returns the exit code.
-pub fn run(arguments: &Arguments) -> u8 {
-    output::exit_code(try_run(arguments))
-}
-
-fn try_run(arguments: &Arguments) -> Result<u8, String> {
+pub fn run(arguments: &Arguments) -> Result<u8, String> {
     arguments.time.begin();
     // Whatever is wrong is said before anything runs.
     let subjects = arguments.files.iter().map(|file| read(file));

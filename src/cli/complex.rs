@@ -3,13 +3,13 @@
 use super::output::{self, Beside, Destination};
 use super::template::{Search, TemplateText, read};
 use super::{BAD_INPUT, CLOSED, INCOMPLETE, STOPPED, interrupt};
+use crate::report::names;
 use krawl::certificate::complex::{ComplexFlaw, verify_complex_set};
 use krawl::complex::{Lowered, Status, Template, Ways, solve, to_certificate};
 use krawl::problem::Problem;
 use krawl::report::{ProgressLine, complex_to_json, complex_to_table};
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
 
 /// Find all complex solutions, every path proved (unless --float)
 ///
@@ -64,11 +64,7 @@ pub struct Arguments {
 }
 
 /// Runs the verb and returns the exit code.
-pub fn run(arguments: &Arguments) -> u8 {
-    output::exit_code(try_run(arguments))
-}
-
-fn try_run(arguments: &Arguments) -> Result<u8, String> {
+pub fn run(arguments: &Arguments) -> Result<u8, String> {
     let file = arguments.file.display();
     let template = arguments.template.as_deref().map(TemplateText::read);
     let template = template.transpose()?;
@@ -86,12 +82,11 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let tell = |done: usize, all: usize| {
         line.show_text(format!("{done} of {all} paths"));
     };
-    let time = arguments.search.time;
     let ways = Ways {
         proved: !arguments.search.float,
         radius: arguments.radius,
         cancel: Some(interrupt::flag()),
-        deadline: time.map(|s| Instant::now() + Duration::from_secs_f64(s)),
+        deadline: interrupt::deadline(arguments.search.time),
         progress: Some(&tell),
         ..Ways::default()
     };
@@ -161,11 +156,7 @@ fn no_certificate(problem: &Problem, lowered: &Lowered) -> String {
             .to_owned();
     }
     let fixed = lowered.bound.as_ref().map(|bound| bound.fixed.as_slice());
-    let names: Vec<&str> = fixed
-        .unwrap_or_default()
-        .iter()
-        .map(|&p| problem.points[p].name.as_str())
-        .collect();
+    let names = names(problem, fixed.unwrap_or_default());
     format!(
         "the figures stand on the reference that gives the best bound ({}), and its lengths are those of no real triangle",
         names.join(", ")

@@ -108,11 +108,7 @@ fn seconds_or_none(text: &str) -> Result<f64, String> {
 }
 
 /// Runs the verb and returns the exit code.
-pub fn run(arguments: &Arguments) -> u8 {
-    output::exit_code(try_run(arguments))
-}
-
-fn try_run(arguments: &Arguments) -> Result<u8, String> {
+pub fn run(arguments: &Arguments) -> Result<u8, String> {
     let file = arguments.file.display();
     let (problem, published) = read(arguments)?;
     output::say_if_signs_are_not_looked_at(&problem);
@@ -263,14 +259,10 @@ fn trace(explorer: &Explorer, quiet: bool) -> Vec<TracedPath> {
         let Some(problem) = explorer.problem_of(id) else {
             continue;
         };
-        let line = ProgressLine::new(!quiet, &format!("picture {} of {}", k + 1, ids.len()));
-        let mut show = |now: track::Progress| line.show(now);
-        let mut control = Control {
-            progress: Some(&mut show),
-            ..interrupt::control()
-        };
-        let traced = track::trace_path(&problem, &track::Options::certified(), &mut control);
-        line.clear();
+        let what = format!("picture {} of {}", k + 1, ids.len());
+        let traced = interrupt::shown(!quiet, &what, |control| {
+            track::trace_path(&problem, &track::Options::certified(), control)
+        });
         if let Ok((outcome, trace)) = traced {
             out.push(TracedPath { id, outcome, trace });
         }

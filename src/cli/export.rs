@@ -4,7 +4,6 @@ use super::CLOSED;
 use super::input;
 use super::output::{self, Destination};
 use krawl::complex::{Export, export, lower_in_squares, places};
-use krawl::problem::Target;
 use std::io::Write;
 use std::path::PathBuf;
 
@@ -54,11 +53,7 @@ enum Program {
 }
 
 /// Runs the verb and returns the exit code.
-pub fn run(arguments: &Arguments) -> u8 {
-    output::exit_code(try_run(arguments))
-}
-
-fn try_run(arguments: &Arguments) -> Result<u8, String> {
+pub fn run(arguments: &Arguments) -> Result<u8, String> {
     let file = arguments.file.display();
     let problem = input::of_equations(&arguments.file)?;
     output::refuse_read([&arguments.file], Some(&arguments.out))?;
@@ -77,17 +72,10 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     }
     let lowered = lower_in_squares(&problem).map_err(|error| format!("{file}: {error}"))?;
     // Points that bars join are no further apart than all bars together.
-    let lengths = problem.distances.iter().map(|d| match &d.target {
-        Target::Length(length) => length.to_f64(),
-        Target::SquaredLength(squared) => squared.to_f64().sqrt(),
-    });
+    let lengths = problem.distances.iter().map(|d| d.target.to_f64());
     let reach = (1.0 + lengths.sum::<f64>()).ceil();
     let text = export(&lowered.system, to, reach).map_err(|error| format!("{file}: {error}"))?;
-    let names: Vec<String> = problem
-        .points
-        .iter()
-        .map(|point| point.name.clone())
-        .collect();
+    let names: Vec<String> = problem.points.iter().map(|p| p.name.clone()).collect();
     let places = places(&lowered.system, &names);
     let to = Destination::new(&arguments.out)?;
     let written = to.write(&text)

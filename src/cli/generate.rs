@@ -1,6 +1,6 @@
 //! `krawl generate`: makes a large problem of a family.
 
-use super::output::{self, Destination};
+use super::output::Destination;
 use super::{BAD_INPUT, CLOSED};
 use clap::ValueEnum;
 use krawl::generate::{Family, Recipe};
@@ -60,11 +60,7 @@ impl From<FamilyName> for Family {
 }
 
 /// Runs the verb and returns the exit code.
-pub fn run(arguments: &Arguments) -> u8 {
-    output::exit_code(try_run(arguments))
-}
-
-fn try_run(arguments: &Arguments) -> Result<u8, String> {
+pub fn run(arguments: &Arguments) -> Result<u8, String> {
     let out = match &arguments.out {
         Some(file) => Destination::new(file)?,
         None => Destination::StandardOutput,

@@ -11,33 +11,49 @@ use krawl::problem::{MAX_FILE_SIZE, Problem};
 use krawl::system::Located;
 use std::borrow::Cow;
 use std::io::{self, Read};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// What `-` stands for, in messages.
 const STANDARD_INPUT: &str = "standard input";
 
+/// The file of a figure.
+#[derive(clap::Args)]
+pub struct Source {
+    /// The problem file (TOML), or a sketch of SolveSpace (.slvs) or FreeCAD (.FCStd)
+    pub file: PathBuf,
+    /// Which sketch of a file that holds several (`krawl check` lists them)
+    #[arg(long, value_name = "NAME")]
+    pub sketch: Option<String>,
+}
+
+impl Source {
+    /// Reads it.
+    pub fn load(&self) -> Result<Loaded, String> {
+        load(&self.file, self.sketch.as_deref())
+    }
+}
+
 /// Reads a problem file, or standard input for `-`, or a file of another program, whose `sketch` may be named. The
 /// text of the error says what is wrong, and where.
 pub fn read(file: &Path, sketch: Option<&str>) -> Result<Problem, String> {
-    let name = file.display().to_string();
-    match Format::of(&name) {
-        Some(Format::SolveSpace | Format::FreeCad) => {
-            let problem = load(file, sketch)?.problem;
-            completed(&problem).map_err(|e| format!("{name}: {e}"))
-        }
-        _ => {
-            let loaded = load(file, sketch)?;
-            loaded.fault.map_or(Ok(loaded.problem), Err)
-        }
+    let loaded = load(file, sketch)?;
+    if is_sketch(file) {
+        return completed(&loaded.problem).map_err(|e| format!("{}: {e}", file.display()));
     }
+    loaded.fault.map_or(Ok(loaded.problem), Err)
+}
+
+/// What another program's file is in.
+pub fn format(file: &Path) -> Option<Format> {
+    Format::of(&file.display().to_string())
 }
 
 /// Reads a problem file, or what becomes one: nothing of which a part would be left out or held.
 pub fn of_equations(file: &Path) -> Result<Problem, String> {
-    let name = file.display().to_string();
-    match Format::of(&name) {
+    match format(file) {
         Some(_) => Err(format!(
-            "{name}: problem files and systems of polynomials are read here, not sketches and molecules"
+            "{}: problem files and systems of polynomials are read here, not sketches and molecules",
+            file.display()
         )),
         None => read(file, None),
     }
@@ -134,8 +150,7 @@ fn asked_of(file: &Path, loaded: Loaded, tolerance: Option<f64>) -> Result<Asked
 
 /// Whether a file is a sketch in its own frame, of SolveSpace or FreeCAD.
 pub fn is_sketch(file: &Path) -> bool {
-    let format = Format::of(&file.display().to_string());
-    matches!(format, Some(Format::SolveSpace | Format::FreeCad))
+    matches!(format(file), Some(Format::SolveSpace | Format::FreeCad))
 }
 
 /// A problem, and the sketch of another program that it is, if it is one.
@@ -161,7 +176,7 @@ pub fn load(file: &Path, sketch: Option<&str>) -> Result<Loaded, String> {
 /// The same of a file that was read before, of which nothing is said again.
 pub fn load_again(file: &Path, sketch: Option<&str>) -> Result<Loaded, String> {
     let name = file.display().to_string();
-    if Format::of(&name).is_none() {
+    if format(file).is_none() {
         if sketch.is_some() {
             return Err(format!(
                 "{name}: --sketch is for files that hold several sketches or molecules"
@@ -189,23 +204,21 @@ pub fn load_again(file: &Path, sketch: Option<&str>) -> Result<Loaded, String> {
                 }
             },
         };
+        let loaded = |problem, fault| Loaded {
+            problem,
+            fault,
+            imported: None,
+        };
         return match read {
-            Ok(problem) => Ok(Loaded {
-                problem,
-                fault: None,
-                imported: None,
-            }),
+            Ok(problem) => Ok(loaded(problem, None)),
             Err(error) if error.is_about_structure() => {
                 let text = match text {
                     Some(text) => text,
                     None => std::fs::read_to_string(file).map_err(|e| format!("{name}: {e}"))?,
                 };
                 let problem = Problem::parse_loosely(&text, &name);
-                Ok(Loaded {
-                    problem: problem.map_err(|_| error.to_string())?,
-                    fault: Some(error.to_string()),
-                    imported: None,
-                })
+                let problem = problem.map_err(|_| error.to_string())?;
+                Ok(loaded(problem, Some(error.to_string())))
             }
             Err(error) => Err(error.to_string()),
         };
@@ -232,7 +245,7 @@ pub fn made(file: &Path) -> Option<Result<String, String>> {
         file.extension()
             .is_some_and(|e| e.eq_ignore_ascii_case(ending))
     };
-    let is_other = has("toml") || Format::of(&name).is_some();
+    let is_other = has("toml") || format(file).is_some();
     // What can be read but once, as a pipe, is a problem file.
     let about = std::fs::metadata(file).ok().filter(|_| !is_other)?;
     if !about.is_file() || about.len() > MAX_FILE_SIZE {

@@ -1,8 +1,9 @@
 //! Ctrl-C: once to stop cleanly, twice to stop at once; and `--time`, which is as Ctrl-C after so many seconds.
 
-use krawl::track::Control;
+use krawl::report::ProgressLine;
+use krawl::track::{Control, Progress};
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 static REQUESTED: AtomicBool = AtomicBool::new(false);
 
@@ -26,6 +27,23 @@ pub fn control<'a>() -> Control<'a> {
         cancel: Some(flag()),
         ..Control::default()
     }
+}
+
+/// Runs something that the first Ctrl-C stops, and shows where it is if that is `wanted`; `what` says what is at work.
+pub fn shown<T>(wanted: bool, what: &str, run: impl FnOnce(&mut Control) -> T) -> T {
+    let line = ProgressLine::new(wanted, what);
+    let mut show = |now: Progress| line.show(now);
+    let done = run(&mut Control {
+        progress: Some(&mut show),
+        ..control()
+    });
+    line.clear();
+    done
+}
+
+/// When so many seconds are over.
+pub fn deadline(seconds: Option<f64>) -> Option<Instant> {
+    seconds.map(|s| Instant::now() + Duration::from_secs_f64(s))
 }
 
 /// How long a verb may take.

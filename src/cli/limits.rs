@@ -20,11 +20,8 @@ Examples:
 Exit codes: 0 all ranges are known to their ends, 1 some are not, 2 bad input, or results that could not
 be written.")]
 pub struct Arguments {
-    /// The problem file (TOML), or a sketch of SolveSpace (.slvs) or FreeCAD (.FCStd)
-    file: PathBuf,
-    /// Which sketch of a file that holds several (`krawl check` lists them)
-    #[arg(long, value_name = "NAME")]
-    sketch: Option<String>,
+    #[command(flatten)]
+    source: input::Source,
     /// Only this dimension, such as a-b or radii:hole
     ///
     /// Or angles:a-b-c; may be given more than once
@@ -45,14 +42,10 @@ pub struct Arguments {
 }
 
 /// Runs the verb and returns the exit code.
-pub fn run(arguments: &Arguments) -> u8 {
-    output::exit_code(try_run(arguments))
-}
-
-fn try_run(arguments: &Arguments) -> Result<u8, String> {
+pub fn run(arguments: &Arguments) -> Result<u8, String> {
     arguments.time.begin();
-    let shown = arguments.file.display();
-    let loaded = input::load(&arguments.file, arguments.sketch.as_deref())?;
+    let shown = arguments.source.file.display();
+    let loaded = arguments.source.load()?;
     let problem = &loaded.problem;
     output::say_if_signs_are_not_looked_at(problem);
     let only = arguments
@@ -62,12 +55,12 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let only = only
         .collect::<Result<Vec<_>, _>>()
         .map_err(|error| format!("{shown}: {error}"))?;
-    let json = beside([&arguments.file], arguments.json.as_deref())?;
-    let pictures = arguments.pictures.places([&arguments.file])?;
+    let json = beside([&arguments.source.file], arguments.json.as_deref())?;
+    let pictures = arguments.pictures.places([&arguments.source.file])?;
     let mut control = interrupt::control();
     let mut session = match open(
         problem,
-        &arguments.file,
+        &arguments.source.file,
         &arguments.left_out.options(),
         &mut control,
     )? {

@@ -174,12 +174,12 @@ pub fn run() -> ExitCode {
         output::complain(&message);
         return ExitCode::from(BAD_INPUT);
     }
-    let code = match parse().verb {
+    let done = match parse().verb {
         Verb::All(arguments) => all::run(&arguments),
         Verb::Check(arguments) => check::run(&arguments),
         Verb::Compare(arguments) => compare::run(&arguments),
         Verb::Complex(arguments) => complex::run(&arguments),
-        Verb::Edit(arguments) => edit::run(&arguments),
+        Verb::Edit(arguments) => Ok(edit::run(&arguments)),
         Verb::Explore(arguments) => explore::run(&arguments),
         Verb::Export(arguments) => export::run(&arguments),
         Verb::Generate(arguments) => generate::run(&arguments),
@@ -196,7 +196,7 @@ pub fn run() -> ExitCode {
         Verb::Completions(arguments) => shell::completions(&arguments),
         Verb::Man(arguments) => shell::man(&arguments),
     };
-    ExitCode::from(code)
+    ExitCode::from(output::exit_code(done))
 }
 
 /// Runs what follows with a number of threads; `None`: one per processor.

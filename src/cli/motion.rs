@@ -25,11 +25,8 @@ Examples:
 Exit codes: 0 it comes back, 5 it has two ends, 1 it could not be followed to an end: what is printed holds as far as it was followed;
 2 bad input, a figure that cannot move or can move in more than one way, or results that could not be written.")]
 pub struct Arguments {
-    /// The problem file (TOML), or a sketch of SolveSpace (.slvs) or FreeCAD (.FCStd)
-    file: PathBuf,
-    /// Which sketch of a file that holds several (`krawl check` lists them)
-    #[arg(long, value_name = "NAME")]
-    sketch: Option<String>,
+    #[command(flatten)]
+    source: input::Source,
     /// Leave this dimension out, so that the figure can move
     ///
     /// Such as a-b or angles:a-b-c; may be given more than once
@@ -55,20 +52,16 @@ pub struct Arguments {
 }
 
 /// Runs the verb and returns the exit code.
-pub fn run(arguments: &Arguments) -> u8 {
-    output::exit_code(try_run(arguments))
-}
-
-fn try_run(arguments: &Arguments) -> Result<u8, String> {
+pub fn run(arguments: &Arguments) -> Result<u8, String> {
     arguments.time.begin();
-    let loaded = input::load(&arguments.file, arguments.sketch.as_deref())?;
+    let loaded = arguments.source.load()?;
     let problem = &loaded.problem;
     output::say_if_signs_are_not_looked_at(problem);
     // What can be measured is known before anything is followed.
     let measures = arguments.measured.of_points(problem)?;
-    let json = beside([&arguments.file], arguments.json.as_deref())?;
-    let csv = beside([&arguments.file], arguments.csv.as_deref())?;
-    let pictures = arguments.pictures.places([&arguments.file])?;
+    let json = beside([&arguments.source.file], arguments.json.as_deref())?;
+    let csv = beside([&arguments.source.file], arguments.csv.as_deref())?;
+    let pictures = arguments.pictures.places([&arguments.source.file])?;
     let mut control = interrupt::control();
     let motion = Motion::of(
         problem,
@@ -82,7 +75,9 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
             output::complain("interrupted before anything was proved");
             return Ok(STOPPED);
         }
-        motion => motion.map_err(|error| format!("{}: {error}", arguments.file.display()))?,
+        motion => {
+            motion.map_err(|error| format!("{}: {error}", arguments.source.file.display()))?
+        }
     };
     // Frames are not all of the way.
     loaded.add_left_out(&mut motion.account, None);

@@ -139,7 +139,10 @@ impl Destination {
                     open.and_then(|mut file| file.write_all(text.as_bytes())),
                 )
             }
-            Destination::File(path) => (path, replace(path, text)),
+            Destination::File(path) => match Beside::begin(path.clone()) {
+                Ok(beside) => return beside.commit(beside.file().write_all(text.as_bytes())),
+                Err(error) => (path, Err(error)),
+            },
         };
         match result {
             Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
@@ -166,9 +169,14 @@ impl Beside {
         let Destination::File(path) = Destination::new(argument)? else {
             return Err(format!("{}: must be a regular file", argument.display()));
         };
-        let beside = temporary(&path);
-        let file = fs::File::create_new(&beside)
-            .map_err(|error| format!("{}: cannot be written: {error}", argument.display()))?;
+        Self::begin(path)
+            .map_err(|error| format!("{}: cannot be written: {error}", argument.display()))
+    }
+
+    fn begin(path: PathBuf) -> io::Result<Self> {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        let beside = folder(&path).join(format!(".{name}.{}.tmp", std::process::id()));
+        let file = fs::File::create_new(&beside)?;
         Ok(Beside { file, beside, path })
     }
 
@@ -200,30 +208,11 @@ impl Drop for Beside {
     }
 }
 
-fn temporary(path: &Path) -> PathBuf {
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    folder(path).join(format!(".{name}.{}.tmp", std::process::id()))
-}
-
 fn folder(path: &Path) -> &Path {
     match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),
     }
-}
-
-fn replace(path: &Path, text: &str) -> io::Result<()> {
-    let beside = temporary(path);
-    let written = fs::File::create_new(&beside)
-        .and_then(|mut file| {
-            file.write_all(text.as_bytes())
-                .and_then(|()| file.sync_all())
-        })
-        .and_then(|()| fs::rename(&beside, path));
-    if written.is_err() {
-        let _ = fs::remove_file(&beside);
-    }
-    written
 }
 
 #[cfg(test)]

@@ -5,35 +5,27 @@ use krawl::report::page::Page;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
+const HEADING: &str = "Pictures and figures";
+
 /// Where pages, pictures and figures go.
 #[derive(clap::Args)]
 pub struct Pictures {
     /// Write a page to look at, for any browser
     ///
     /// Turn the figures, travel the path, pick solutions; it needs no network
-    #[arg(long, value_name = "FILE", help_heading = "Pictures and figures")]
+    #[arg(long, value_name = "FILE", help_heading = HEADING)]
     html: Option<PathBuf>,
     /// Write a still picture of the first figures (SVG)
-    #[arg(long, value_name = "FILE", help_heading = "Pictures and figures")]
+    #[arg(long, value_name = "FILE", help_heading = HEADING)]
     svg: Option<PathBuf>,
     /// Write a picture of the figure moving along its path (animated SVG)
-    #[arg(
-        long,
-        value_name = "FILE",
-        help_heading = "Pictures and figures",
-        hide_short_help = true
-    )]
+    #[arg(long, value_name = "FILE", help_heading = HEADING, hide_short_help = true)]
     animation: Option<PathBuf>,
     /// Write the figures, the sketch first, as Wavefront OBJ
-    #[arg(
-        long,
-        value_name = "FILE",
-        help_heading = "Pictures and figures",
-        hide_short_help = true
-    )]
+    #[arg(long, value_name = "FILE", help_heading = HEADING, hide_short_help = true)]
     obj: Option<PathBuf>,
     /// Write the solutions as XYZ, as programs for molecules read it
-    #[arg(long, value_name = "FILE", help_heading = "Pictures and figures")]
+    #[arg(long, value_name = "FILE", help_heading = HEADING)]
     xyz: Option<PathBuf>,
 }
 

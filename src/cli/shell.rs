@@ -35,19 +35,15 @@ pub struct Man {
 }
 
 /// Prints the completions and returns the exit code.
-pub fn completions(arguments: &Completions) -> u8 {
+pub fn completions(arguments: &Completions) -> Result<u8, String> {
     let mut text = Vec::new();
     let mut command = super::Arguments::command();
     clap_complete::generate(arguments.shell, &mut command, "krawl", &mut text);
-    code(output::print(&String::from_utf8_lossy(&text)))
+    Ok(code(output::print(&String::from_utf8_lossy(&text))))
 }
 
 /// Prints or writes the manual pages and returns the exit code.
-pub fn man(arguments: &Man) -> u8 {
-    output::exit_code(try_man(arguments))
-}
-
-fn try_man(arguments: &Man) -> Result<u8, String> {
+pub fn man(arguments: &Man) -> Result<u8, String> {
     let command = super::Arguments::command();
     let Some(folder) = &arguments.dir else {
         let mut text = Vec::new();

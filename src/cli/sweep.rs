@@ -28,11 +28,8 @@ Examples:
 Exit codes: 0 all frames were reached; 3 limit, 4 branches meet, 1 stopped: the frames before are written;
 2 bad input, or results that could not be written.")]
 pub struct Arguments {
-    /// The problem file (TOML), or a sketch of SolveSpace (.slvs) or FreeCAD (.FCStd)
-    pub(super) file: PathBuf,
-    /// Which sketch of a file that holds several (`krawl check` lists them)
-    #[arg(long, value_name = "NAME")]
-    pub(super) sketch: Option<String>,
+    #[command(flatten)]
+    pub(super) source: input::Source,
     /// The dimension that is driven, such as a-b, radii:hole or angles:a-b-c
     #[arg(long, value_name = "NAME", required_unless_present = "table")]
     vary: Option<String>,
@@ -96,11 +93,7 @@ pub struct Arguments {
 }
 
 /// Runs the verb and returns the exit code.
-pub fn run(arguments: &Arguments) -> u8 {
-    output::exit_code(try_run(arguments))
-}
-
-fn try_run(arguments: &Arguments) -> Result<u8, String> {
+pub fn run(arguments: &Arguments) -> Result<u8, String> {
     arguments.time.begin();
     match (
         &arguments.table,
@@ -116,8 +109,8 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
 
 /// Drives one dimension through a range.
 fn drive(arguments: &Arguments, vary: &str, ends: [&str; 2]) -> Result<u8, String> {
-    let shown = arguments.file.display();
-    let loaded = input::load(&arguments.file, arguments.sketch.as_deref())?;
+    let shown = arguments.source.file.display();
+    let loaded = arguments.source.load()?;
     let problem = &loaded.problem;
     output::say_if_signs_are_not_looked_at(problem);
     let in_file = |error: &dyn std::fmt::Display| format!("{shown}: {error}");
@@ -132,7 +125,7 @@ fn drive(arguments: &Arguments, vary: &str, ends: [&str; 2]) -> Result<u8, Strin
     let mut account = None;
     if cert.is_some() {
         let frames = arguments.frames as usize;
-        match certified(&arguments.file, &problem, |session| {
+        match certified(&arguments.source.file, &problem, |session| {
             let mut control = interrupt::control();
             let sweep = session.sweep(index, (&from, &to), frames, &mut control);
             account = Some(sweep.account.clone());
@@ -150,9 +143,9 @@ fn drive(arguments: &Arguments, vary: &str, ends: [&str; 2]) -> Result<u8, Strin
             None => cert = None,
         }
     }
-    let json = beside([&arguments.file], arguments.json.as_deref())?;
-    let csv = beside([&arguments.file], arguments.csv.as_deref())?;
-    let pictures = arguments.pictures.places([&arguments.file])?;
+    let json = beside([&arguments.source.file], arguments.json.as_deref())?;
+    let csv = beside([&arguments.source.file], arguments.csv.as_deref())?;
+    let pictures = arguments.pictures.places([&arguments.source.file])?;
     interrupt::flag();
     let begun = cert.map(Beside::new).transpose()?;
     let writer = |beside| Writer::new(BufWriter::new(Beside::file(beside)), &problem);
@@ -163,7 +156,7 @@ fn drive(arguments: &Arguments, vary: &str, ends: [&str; 2]) -> Result<u8, Strin
     };
     let mut session = match open(
         &problem,
-        &arguments.file,
+        &arguments.source.file,
         &arguments.left_out.options(),
         &mut control,
     )? {
@@ -180,7 +173,7 @@ fn drive(arguments: &Arguments, vary: &str, ends: [&str; 2]) -> Result<u8, Strin
     let last = sweep.end.as_ref().unwrap_or(&sweep.approach);
     let (mut written, verdict) = commit(
         (begun.as_ref(), witness),
-        (&arguments.file, last),
+        (&arguments.source.file, last),
         cert.filter(|_| !arguments.no_verify),
         arguments.quiet,
     )?;

@@ -1,7 +1,7 @@
 //! `krawl sweep --table`: several dimensions together, row by row.
 
 use super::edit::{drawn_in_words, exit_code, open};
-use super::input::{self, Loaded};
+use super::input::Loaded;
 use super::output::{self, Beside, Destination, beside};
 use super::sweep::Arguments;
 use super::{BAD_INPUT, CLOSED, interrupt};
@@ -66,7 +66,7 @@ impl Table {
 
 /// Drives the dimensions of a table, and returns the exit code.
 pub(super) fn run(arguments: &Arguments, file: &Path) -> Result<u8, String> {
-    let loaded = input::load(&arguments.file, arguments.sketch.as_deref())?;
+    let loaded = arguments.source.load()?;
     let table = Table::read(file)?;
     let cells = table
         .rows
@@ -77,14 +77,14 @@ pub(super) fn run(arguments: &Arguments, file: &Path) -> Result<u8, String> {
         .map_err(|error| format!("{}: {error}", file.display()))?;
     let (columns, problem) = (table.names.len(), &asked.problem);
     let measures = arguments.measured.of(problem)?;
-    let csv = beside([&arguments.file], arguments.csv.as_deref())?;
+    let csv = beside([&arguments.source.file], arguments.csv.as_deref())?;
     let folder = arguments.out_folder.as_deref();
     if let Some(folder) = folder {
         fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
     }
     let mut control = interrupt::control();
     let options = arguments.left_out.options();
-    let mut session = match open(problem, &arguments.file, &options, &mut control)? {
+    let mut session = match open(problem, &arguments.source.file, &options, &mut control)? {
         Ok(session) => session,
         Err(code) => return Ok(code),
     };
@@ -170,17 +170,10 @@ fn write(
     let mut changed = loaded.problem.clone();
     given.iter().for_each(|setting| setting.apply(&mut changed));
     let (points, objects) = (session.figure(), session.objects());
-    let bytes = loaded.rewritten(&arguments.file, &changed, &points, &objects)?;
-    let stem = arguments
-        .file
-        .file_stem()
-        .unwrap_or_default()
-        .to_string_lossy();
-    let extension = arguments
-        .file
-        .extension()
-        .unwrap_or_default()
-        .to_string_lossy();
+    let bytes = loaded.rewritten(&arguments.source.file, &changed, &points, &objects)?;
+    let file = &arguments.source.file;
+    let stem = file.file_stem().unwrap_or_default().to_string_lossy();
+    let extension = file.extension().unwrap_or_default().to_string_lossy();
     let out = folder.join(format!("{stem}-{row}.{extension}"));
     let beside = Beside::new(&out)?;
     Ok(beside.commit(beside.file().write_all(&bytes)))

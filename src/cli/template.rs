@@ -7,7 +7,7 @@ use krawl::complex::{Effort, Fibre, Filling, Lowered, Template, Ways, fill, lowe
 use krawl::problem::Problem;
 use krawl::report::ProgressLine;
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 /// Find the complex solutions of a random instance, to be used for all instances
 ///
@@ -99,19 +99,12 @@ impl Search {
             ways: Ways {
                 proved: !self.float,
                 cancel: Some(interrupt::flag()),
-                deadline: self
-                    .time
-                    .map(|s| Instant::now() + Duration::from_secs_f64(s)),
+                deadline: interrupt::deadline(self.time),
                 ..plain.ways
             },
         };
         fill(&lowered.system, &filling)
     }
-}
-
-/// Runs the verb and returns the exit code.
-pub fn run(arguments: &Arguments) -> u8 {
-    output::exit_code(try_run(arguments))
 }
 
 /// A problem, and its complex equations: those of a template, where one is given and has them.
@@ -150,7 +143,8 @@ impl TemplateText {
     }
 }
 
-fn try_run(arguments: &Arguments) -> Result<u8, String> {
+/// Runs the verb and returns the exit code.
+pub fn run(arguments: &Arguments) -> Result<u8, String> {
     let file = arguments.file.display();
     let from = arguments.from.as_deref().map(TemplateText::read);
     let from = from.transpose()?;

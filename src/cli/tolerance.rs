@@ -27,11 +27,8 @@ Examples:
 Exit codes: 0 proved, 1 interrupted, 2 bad input, or limits for which it is not proved that there is one figure for each choice, or results that could not be
 written.")]
 pub struct Arguments {
-    /// The problem file (TOML), or a sketch of SolveSpace (.slvs) or FreeCAD (.FCStd)
-    file: PathBuf,
-    /// Which sketch of a file that holds several (`krawl check` lists them)
-    #[arg(long, value_name = "NAME")]
-    sketch: Option<String>,
+    #[command(flatten)]
+    source: input::Source,
     /// The tolerance of all lengths and radii that have none of their own
     ///
     /// 0.1, or so far down and up, -0.2,0.1
@@ -62,18 +59,14 @@ pub struct Arguments {
 }
 
 /// Runs the verb and returns the exit code.
-pub fn run(arguments: &Arguments) -> u8 {
-    output::exit_code(try_run(arguments))
-}
-
-fn try_run(arguments: &Arguments) -> Result<u8, String> {
+pub fn run(arguments: &Arguments) -> Result<u8, String> {
     arguments.time.begin();
-    let shown = arguments.file.display();
-    let (problem, made) = input::whole(&arguments.file, arguments.sketch.as_deref())?;
+    let shown = arguments.source.file.display();
+    let (problem, made) = input::whole_of(&arguments.source.file, &arguments.source.load()?)?;
     output::say_if_signs_are_not_looked_at(&problem);
-    let json = beside([&arguments.file], arguments.json.as_deref())?;
-    let csv = beside([&arguments.file], arguments.csv.as_deref())?;
-    let pictures = arguments.pictures.places([&arguments.file])?;
+    let json = beside([&arguments.source.file], arguments.json.as_deref())?;
+    let csv = beside([&arguments.source.file], arguments.csv.as_deref())?;
+    let pictures = arguments.pictures.places([&arguments.source.file])?;
     let default = arguments.default.as_deref().map(deviations).transpose()?;
     let named = arguments.tolerance.iter().map(|text| {
         let (name, value) = text

@@ -48,28 +48,28 @@ pub struct Arguments {
 }
 
 /// Runs the verb and returns the exit code.
-pub fn run(arguments: &Arguments) -> u8 {
+pub fn run(arguments: &Arguments) -> Result<u8, String> {
     let Some(seconds) = arguments.time else {
-        return output::exit_code(try_run(arguments));
+        return check(arguments);
     };
     // A check that is not over has nothing to tell, so that it need not be ended: the program ends.
     let (sender, receiver) = mpsc::channel();
     let checked = arguments.clone();
-    std::thread::spawn(move || sender.send(output::exit_code(try_run(&checked))));
+    std::thread::spawn(move || sender.send(check(&checked)));
     match receiver.recv_timeout(Duration::from_secs_f64(seconds)) {
-        Ok(code) => code,
+        Ok(checked) => checked,
         Err(mpsc::RecvTimeoutError::Timeout) => {
             let name = arguments.cert.display();
             output::complain(&format!(
                 "{name}: NOT PROVED: the check had not come to its end after {seconds} s (--time)"
             ));
-            NOT_PROVED
+            Ok(NOT_PROVED)
         }
-        Err(mpsc::RecvTimeoutError::Disconnected) => BAD_INPUT,
+        Err(mpsc::RecvTimeoutError::Disconnected) => Ok(BAD_INPUT),
     }
 }
 
-fn try_run(arguments: &Arguments) -> Result<u8, String> {
+fn check(arguments: &Arguments) -> Result<u8, String> {
     let name = arguments.cert.display();
     let file = File::open(&arguments.cert).map_err(|e| format!("{name}: cannot be read: {e}"))?;
     let opened = contents(BufReader::new(file)).map_err(|error| format!("{name}: {error}"));
@@ -206,37 +206,34 @@ fn held_and_left_out(found: &Account) -> String {
     }
 }
 
-/// Prints what was proved of a set of solutions, and whether it is about the same as the problem file, if there is one, of
-/// which `found` was made: `same`, and what was compared. False: it could not be printed.
-fn print_with_problem(
+/// Prints what was proved of a set of solutions, and whether it is about the same as the problem file, if there is one, as `is_about` tells
+/// by what is `compared`. The exit code is `code` where it is.
+fn conclude(
     arguments: &Arguments,
     mut text: String,
-    (same, compared): (bool, Compared),
-    found: &Account,
-    signs: &str,
-) -> bool {
+    of_file: OfFile,
+    (is_about, compared): (impl Fn(&Problem) -> bool, Compared),
+    code: u8,
+) -> u8 {
+    let (same, found) = compare(of_file, is_about);
     if let Some(file) = &arguments.file {
-        let (what, which) = match compared {
+        let (what, which, sketch) = match compared {
             Compared::Distances => (
                 "names of the points and the distances",
                 "names of the points or the distances",
+                "; where the sketches have the points was not compared, as the set does not depend on it",
             ),
             Compared::All => (
                 "points, where the sketch has them, and all constraints",
                 "points, their places in the sketch or the constraints",
+                "",
             ),
-        };
-        let sketch = match compared {
-            Compared::Distances => {
-                "; where the sketches have the points was not compared, as the set does not depend on it"
-            }
-            Compared::All => "",
         };
         text += &match same {
             true => format!(
                 "The {what} are those in {}, exactly{sketch}.{}\n",
                 file.display(),
-                held_and_left_out(found)
+                held_and_left_out(&found)
             ),
             false => format!(
                 "REFUTED: the {which} are not those in {}.\n",
@@ -244,47 +241,55 @@ fn print_with_problem(
             ),
         };
     }
-    arguments.quiet || output::print(&(text + signs))
+    match arguments.quiet || output::print(&(text + without_signs(of_file))) {
+        false => BAD_INPUT,
+        true if same => code,
+        true => REFUTED,
+    }
 }
 
 /// Checks a set of complex solutions.
 fn verify_the_set(arguments: &Arguments, bytes: &[u8], of_file: OfFile) -> Result<u8, String> {
-    let name = arguments.cert.display();
     let clock = Instant::now();
     let verdict = super::in_pool(arguments.threads, || verify_complex_set(bytes))?;
-    let verdict = verdict.map_err(|error| format!("{name}: {error}"))?;
+    let verdict = verdict.map_err(|error| format!("{}: {error}", arguments.cert.display()))?;
     let text = complex_set_theorem(&verdict, clock.elapsed());
-    let signs = without_signs(of_file);
-    let (same, found) = compare(of_file, |problem| verdict.is_about(problem));
-    if !print_with_problem(arguments, text, (same, verdict.compared()), &found, signs) {
-        return Ok(BAD_INPUT);
-    }
-    Ok(match verdict.flaw {
-        _ if !same => REFUTED,
+    let code = match verdict.flaw {
         None => CLOSED,
         Some(ComplexFlaw::False(_)) => REFUTED,
         Some(ComplexFlaw::NotProved(_)) => NOT_PROVED,
-    })
+    };
+    let is_about = |problem: &Problem| verdict.is_about(problem);
+    let compared = verdict.compared();
+    Ok(conclude(
+        arguments,
+        text,
+        of_file,
+        (is_about, compared),
+        code,
+    ))
 }
 
 /// Checks what a search for all solutions left.
 fn verify_the_cover(arguments: &Arguments, bytes: &[u8], of_file: OfFile) -> Result<u8, String> {
-    let name = arguments.cert.display();
     let clock = Instant::now();
     let verdict = check_cover(bytes, arguments.threads, arguments.quiet, || true);
-    let verdict = verdict.map_err(|error| format!("{name}: {error}"))?;
+    let verdict = verdict.map_err(|error| format!("{}: {error}", arguments.cert.display()))?;
     let text = cover_theorem(&verdict, clock.elapsed());
-    let signs = without_signs(of_file);
-    let (same, found) = compare(of_file, |problem| verdict.is_about(problem));
-    if !print_with_problem(arguments, text, (same, verdict.compared()), &found, signs) {
-        return Ok(BAD_INPUT);
-    }
-    Ok(match verdict.proves_all() {
-        _ if !same => REFUTED,
+    let code = match verdict.proves_all() {
         _ if verdict.flaw.is_some() => NOT_PROVED,
         true => CLOSED,
         false => INCOMPLETE,
-    })
+    };
+    let is_about = |problem: &Problem| verdict.is_about(problem);
+    let compared = verdict.compared();
+    Ok(conclude(
+        arguments,
+        text,
+        of_file,
+        (is_about, compared),
+        code,
+    ))
 }
 
 /// Checks a cover, and shows where it is, for as long as `goes_on` says so.

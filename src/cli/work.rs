@@ -5,7 +5,6 @@ use super::{CLOSED, INCOMPLETE, interrupt};
 use krawl::explore::{Limits, Share, Worked, work};
 use krawl::report::ProgressLine;
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
 
 /// Follow the sketches of a work unit of `krawl explore --shard`, on this machine
 ///
@@ -41,18 +40,14 @@ pub struct Arguments {
     quiet: bool,
 }
 
-/// Runs the verb and returns the exit code.
-pub fn run(arguments: &Arguments) -> u8 {
-    output::exit_code(try_run(arguments))
-}
-
 /// Reads a unit.
 fn read(path: &Path) -> Result<Share, String> {
     let text = std::fs::read_to_string(path).map_err(|e| format!("{}: {e}", path.display()))?;
     Share::read(&text).map_err(|error| format!("{}: {error}", path.display()))
 }
 
-fn try_run(arguments: &Arguments) -> Result<u8, String> {
+/// Runs the verb and returns the exit code.
+pub fn run(arguments: &Arguments) -> Result<u8, String> {
     let share = read(&arguments.unit)?;
     let beside = || arguments.unit.with_extension("krawl-result");
     let out = arguments.out.clone().unwrap_or_else(beside);
@@ -69,9 +64,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let limits = Limits {
         most_tubes: arguments.max_tubes,
         cancel: Some(interrupt::flag()),
-        deadline: arguments
-            .time
-            .map(|s| Instant::now() + Duration::from_secs_f64(s)),
+        deadline: interrupt::deadline(arguments.time),
     };
     let jobs = arguments.jobs.unwrap_or(0).into();
     let worked = work(&share, &out, jobs, &limits, &tell);

@@ -329,6 +329,9 @@ mod tests {
     }
 
     const PROVED: [f64; 4] = [0.1, 0.2, 0.3, 0.4];
+    /// With one that is not proved, and with one twice.
+    const BEYOND: [f64; 5] = [0.1, 0.2, 0.3, 0.35, 0.4];
+    const TWICE: [f64; 5] = [0.1, 0.2, 0.2, 0.3, 0.4];
 
     fn certified(met: &[f64], ending: Ending) -> Row {
         Row {
@@ -347,87 +350,62 @@ mod tests {
         Matching::new(&Homotopy::new(&problem).unwrap())
     }
 
-    fn verdict(met: &[f64], length: f64, closed: bool, residual: f64) -> Verdict {
+    /// A run beside a certified one that met four solutions, two behind the sketch and two ahead.
+    fn judged(known: Ending, run: &Measured) -> Verdict {
         let matching = matching();
-        let rows = [certified(&PROVED, Ending::Closed)];
+        let rows = [certified(&PROVED, known)];
         let reference = Reference::among(&rows, &matching).unwrap();
-        let ending = if closed {
-            Ending::Closed
-        } else {
-            Ending::Stopped
-        };
-        reference.judge(&measured(Mode::Float, met, length, ending, residual))
+        reference.judge(run)
     }
 
-    /// Beside an arc with two solutions behind the sketch and two ahead.
-    fn on_arc(mode: Mode, met: &[f64], ending: Ending, residual: f64) -> Verdict {
-        let matching = matching();
-        let rows = [certified(&PROVED, Ending::Open)];
-        let reference = Reference::among(&rows, &matching).unwrap();
-        reference.judge(&measured(mode, met, 30.0, ending, residual))
+    fn wrong(fault: Fault) -> Verdict {
+        Verdict::Wrong(vec![fault])
     }
 
     #[test]
     fn an_arc_is_a_reference() {
-        use Verdict::{Earlier, Right, Stopped, Unjudged, Wrong};
-        let float = |met: &[f64], ending| on_arc(Mode::Float, met, ending, 1e-15);
-        assert_eq!(float(&PROVED, Ending::Open), Right);
-        assert_eq!(float(&[0.4, 0.3, 0.2, 0.1], Ending::Open), Right);
-        assert_eq!(
-            float(&[0.2, 0.3, 0.4], Ending::Open),
-            Wrong(vec![Fault::Lost(1)])
-        );
-        assert_eq!(
-            float(&[0.1, 0.3, 0.2, 0.4], Ending::Open),
-            Wrong(vec![Fault::Order])
-        );
-        // That the path is closed beyond its ends may be. A run that says so goes from the sketch, at 0.25, to the one end of
-        // the arc and comes back by the other.
-        for met in [
-            &[0.3, 0.4, 0.1, 0.2][..],
-            &[0.2, 0.1, 0.4, 0.3],
-            &[0.3, 0.4, 0.5, 0.1, 0.2],
+        use Fault::{Invented, Lost, Order};
+        use Verdict::{Earlier, Right, Stopped, Unjudged};
+        let on_arc = |mode, met: &[f64], ending, residual| {
+            judged(Ending::Open, &measured(mode, met, 30.0, ending, residual))
+        };
+        for (met, ending, verdict) in [
+            (&PROVED[..], Ending::Open, Right),
+            (&[0.4, 0.3, 0.2, 0.1], Ending::Open, Right),
+            (&[0.2, 0.3, 0.4], Ending::Open, wrong(Lost(1))),
+            (&[0.1, 0.3, 0.2, 0.4], Ending::Open, wrong(Order)),
+            // That the path is closed beyond its ends may be. A run that says so goes from the sketch, at 0.25, to the one end
+            // of the arc and comes back by the other.
+            (&[0.3, 0.4, 0.1, 0.2], Ending::Closed, Unjudged),
+            (&[0.2, 0.1, 0.4, 0.3], Ending::Closed, Unjudged),
+            (&[0.3, 0.4, 0.5, 0.1, 0.2], Ending::Closed, Unjudged),
+            (&PROVED, Ending::Closed, wrong(Order)),
+            (&[0.3, 0.4, 0.2], Ending::Closed, wrong(Lost(1))),
+            // One that stopped has seen one stretch, with the sketch in it.
+            (&[], Ending::Stopped, Stopped),
+            (&[0.3], Ending::Stopped, Stopped),
+            (&[0.2], Ending::Stopped, Stopped),
+            (&[0.2, 0.1], Ending::Stopped, Stopped),
+            (&[0.2, 0.3], Ending::Stopped, Stopped),
+            (&[0.1, 0.2, 0.3], Ending::Stopped, Stopped),
+            (&[0.4], Ending::Stopped, wrong(Lost(1))),
+            (&[0.1], Ending::Stopped, wrong(Lost(1))),
+            (&[0.1, 0.3], Ending::Stopped, wrong(Lost(1))),
+            (&[0.2, 0.4], Ending::Stopped, wrong(Lost(1))),
+            // Figures beyond the ends are nothing that can be told.
+            (&[0.1, 0.2, 0.3, 0.4, 0.5], Ending::Open, Unjudged),
         ] {
-            assert_eq!(float(met, Ending::Closed), Unjudged, "{met:?}");
+            let found = on_arc(Mode::Float, met, ending, 1e-15);
+            assert_eq!(found, verdict, "{met:?} {ending:?}");
         }
-        assert_eq!(float(&PROVED, Ending::Closed), Wrong(vec![Fault::Order]));
-        assert_eq!(
-            float(&[0.3, 0.4, 0.2], Ending::Closed),
-            Wrong(vec![Fault::Lost(1)])
-        );
-        assert_eq!(
-            on_arc(
-                Mode::Float,
-                &[0.3, 0.4, 0.5, 0.1, 0.2],
-                Ending::Closed,
-                1e-3
-            ),
-            Wrong(vec![Fault::Invented(1)])
-        );
-        // One that stopped has seen one stretch, with the sketch in it.
-        for met in [
-            &[][..],
-            &[0.3],
-            &[0.2],
-            &[0.2, 0.1],
-            &[0.2, 0.3],
-            &[0.1, 0.2, 0.3],
+        // What does not meet the constraints is wrong.
+        for (met, ending) in [
+            ([0.3, 0.4, 0.5, 0.1, 0.2], Ending::Closed),
+            ([0.1, 0.2, 0.3, 0.4, 0.5], Ending::Open),
         ] {
-            assert_eq!(float(met, Ending::Stopped), Stopped, "{met:?}");
+            let found = on_arc(Mode::Float, &met, ending, 1e-3);
+            assert_eq!(found, wrong(Invented(1)));
         }
-        for met in [&[0.4][..], &[0.1], &[0.1, 0.3], &[0.2, 0.4]] {
-            assert_eq!(
-                float(met, Ending::Stopped),
-                Wrong(vec![Fault::Lost(1)]),
-                "{met:?}"
-            );
-        }
-        // Figures beyond the ends are nothing that can be told; what does not meet the constraints is.
-        assert_eq!(float(&[0.1, 0.2, 0.3, 0.4, 0.5], Ending::Open), Unjudged);
-        assert_eq!(
-            on_arc(Mode::Float, &[0.1, 0.2, 0.3, 0.4, 0.5], Ending::Open, 1e-3),
-            Wrong(vec![Fault::Invented(1)])
-        );
         // Another proof may get less far, and does not pass over anything.
         let proved = |met: &[f64]| on_arc(Mode::Certified, met, Ending::Open, 1e-12);
         assert_eq!(proved(&PROVED), Right);
@@ -436,7 +414,7 @@ mod tests {
         assert_eq!(proved(&[]), Earlier(4));
         // Its figures beyond the other end are not known to be wrong.
         assert_eq!(proved(&[0.3, 0.4, 0.5]), Unjudged);
-        assert_eq!(proved(&[0.1, 0.3]), Wrong(vec![Fault::Lost(1)]));
+        assert_eq!(proved(&[0.1, 0.3]), wrong(Lost(1)));
         // A closed path is not open.
         let matching = matching();
         let rows = [
@@ -446,62 +424,36 @@ mod tests {
         let reference = Reference::among(&rows, &matching).unwrap();
         assert_eq!(reference.length(), Some(10.0));
         let open = measured(Mode::Float, &PROVED, 10.0, Ending::Open, 1e-15);
-        assert_eq!(reference.judge(&open), Wrong(vec![Fault::Open]));
+        assert_eq!(reference.judge(&open), wrong(Fault::Open));
     }
 
     #[test]
     fn finds_each_fault() {
-        use Verdict::{Right, Stopped, Wrong};
-        assert_eq!(verdict(&PROVED, 10.0, true, 1e-15), Right);
-        assert_eq!(
-            verdict(&[0.1 + 1e-9, 0.2, 0.3, 0.4], 9.8, true, 1e-15),
-            Right
-        );
-        assert_eq!(verdict(&[0.4, 0.3, 0.2, 0.1], 10.0, true, 1e-15), Right);
-        assert_eq!(
-            verdict(&[0.1, 0.2, 0.4], 10.0, true, 1e-15),
-            Wrong(vec![Fault::Lost(1)])
-        );
-        assert_eq!(
-            verdict(&[0.1, 0.2, 0.3, 0.35, 0.4], 10.0, true, 1e-15),
-            Wrong(vec![Fault::Jumped(1)])
-        );
-        assert_eq!(
-            verdict(&[0.1, 0.2, 0.3, 0.35, 0.4], 10.0, true, 1e-3),
-            Wrong(vec![Fault::Invented(1)])
-        );
-        assert_eq!(
-            verdict(&[0.1, 0.2, 0.2, 0.3, 0.4], 10.0, true, 1e-15),
-            Wrong(vec![Fault::Invented(1)])
-        );
-        assert_eq!(
-            verdict(&[0.1, 0.3, 0.2, 0.4], 10.0, true, 1e-15),
-            Wrong(vec![Fault::Order])
-        );
-        assert_eq!(
-            verdict(&PROVED, 20.0, true, 1e-15),
-            Wrong(vec![Fault::Length(2.0)])
-        );
-        assert_eq!(
-            verdict(&PROVED, 5.0, true, 1e-15),
-            Wrong(vec![Fault::Length(0.5)])
-        );
-        // Runs that stopped are wrong in what they say, not in what they do not.
-        assert_eq!(verdict(&[0.1, 0.2], 5.0, false, 1e-15), Stopped);
-        assert_eq!(verdict(&[0.4, 0.3], 5.0, false, 1e-15), Stopped);
-        assert_eq!(verdict(&[], 0.0, false, 1e-15), Stopped);
-        assert_eq!(
-            verdict(&[0.1, 0.3], 7.0, false, 1e-15),
-            Wrong(vec![Fault::Lost(1)])
-        );
-        assert_eq!(
-            verdict(&[0.1, 0.9], 7.0, false, 1e-15),
-            Wrong(vec![Fault::Jumped(1)])
-        );
-        assert_eq!(
-            verdict(&PROVED, 30.0, false, 1e-15),
-            Wrong(vec![Fault::NotClosed(3.0)])
-        );
+        use Fault::{Invented, Jumped, Length, Lost, NotClosed, Order};
+        use Verdict::{Right, Stopped};
+        let (closed, stopped) = (Ending::Closed, Ending::Stopped);
+        for (met, length, ending, residual, verdict) in [
+            (&PROVED[..], 10.0, closed, 1e-15, Right),
+            (&[0.1 + 1e-9, 0.2, 0.3, 0.4], 9.8, closed, 1e-15, Right),
+            (&[0.4, 0.3, 0.2, 0.1], 10.0, closed, 1e-15, Right),
+            (&[0.1, 0.2, 0.4], 10.0, closed, 1e-15, wrong(Lost(1))),
+            (&BEYOND, 10.0, closed, 1e-15, wrong(Jumped(1))),
+            (&BEYOND, 10.0, closed, 1e-3, wrong(Invented(1))),
+            (&TWICE, 10.0, closed, 1e-15, wrong(Invented(1))),
+            (&[0.1, 0.3, 0.2, 0.4], 10.0, closed, 1e-15, wrong(Order)),
+            (&PROVED, 20.0, closed, 1e-15, wrong(Length(2.0))),
+            (&PROVED, 5.0, closed, 1e-15, wrong(Length(0.5))),
+            // Runs that stopped are wrong in what they say, not in what they do not.
+            (&[0.1, 0.2], 5.0, stopped, 1e-15, Stopped),
+            (&[0.4, 0.3], 5.0, stopped, 1e-15, Stopped),
+            (&[], 0.0, stopped, 1e-15, Stopped),
+            (&[0.1, 0.3], 7.0, stopped, 1e-15, wrong(Lost(1))),
+            (&[0.1, 0.9], 7.0, stopped, 1e-15, wrong(Jumped(1))),
+            (&PROVED, 30.0, stopped, 1e-15, wrong(NotClosed(3.0))),
+        ] {
+            let run = measured(Mode::Float, met, length, ending, residual);
+            assert_eq!(judged(Ending::Closed, &run), verdict, "{met:?} {length}");
+        }
     }
 
     #[test]

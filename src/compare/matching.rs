@@ -198,25 +198,24 @@ mod tests {
     /// A distance does not tell the two directions of a line apart, an angle with another line of its own does.
     #[test]
     fn directions_count_where_constraints_tell_them() {
-        let text = |more: &str| {
-            format!(
-                "dimension = 2\n[points]\na = [0, 0]\nb = [4, 0]\n[lines]\n\
-                 l = {{ point = [1, 1], direction = [1, 0.2] }}\n\
-                 [constraints]\ndistances = [[\"a\", \"b\", 4.2], [\"a\", \"l\", 1.1]{more}\n\
-                 [homotopy]\nbend = [\"a\", \"b\"]\nbend_coefficient = 2\n"
-            )
+        let reversed = |figure: &Solution| {
+            let mut other = figure.clone();
+            let Located::Line { direction, .. } = &mut other.objects[0] else {
+                panic!("a line");
+            };
+            *direction = direction.map(|x| -x);
+            other
         };
-        let undirected = text(", [\"b\", \"l\", 1.9]]");
-        let problem = Problem::parse(&undirected, "test.toml").unwrap();
+        let undirected = "dimension = 2\n[points]\na = [0, 0]\nb = [4, 0]\n[lines]\n\
+            l = { point = [1, 1], direction = [1, 0.2] }\n\
+            [constraints]\ndistances = [[\"a\", \"b\", 4.2], [\"a\", \"l\", 1.1], [\"b\", \"l\", 1.9]]\n\
+            [homotopy]\nbend = [\"a\", \"b\"]\nbend_coefficient = 2\n";
+        let problem = Problem::parse(undirected, "test.toml").unwrap();
         let homotopy = Homotopy::new(&problem).unwrap();
         let matching = Matching::new(&homotopy);
         let boxes = solutions(&problem, &Options::certified());
         assert!(!boxes.is_empty());
-        let mut other = boxes[0].clone();
-        let Located::Line { direction, .. } = &mut other.objects[0] else {
-            panic!("a line");
-        };
-        *direction = direction.map(|x| -x);
+        let other = reversed(&boxes[0]);
         let tells = !homotopy.directed(|_| true).is_empty();
         let found = matching.place_of(&boxes[..1], &other, PLACE);
         assert_eq!(found.is_none(), tells);
@@ -226,11 +225,7 @@ mod tests {
         assert!(!homotopy.directed(|_| true).is_empty());
         let matching = Matching::new(&homotopy);
         let boxes = solutions(&problem, &Options::certified());
-        let mut other = boxes[0].clone();
-        let Located::Line { direction, .. } = &mut other.objects[0] else {
-            panic!("a line");
-        };
-        *direction = direction.map(|x| -x);
+        let other = reversed(&boxes[0]);
         assert_eq!(matching.place_of(&boxes, &other, PLACE), None);
     }
 }

@@ -101,15 +101,8 @@ impl Job {
     pub fn run(&self, limits: &Limits) -> Option<PathRecord> {
         let clock = Instant::now();
         let record = |end, reason| PathRecord {
-            id: self.sketch.id,
-            end,
-            reason,
-            by: None,
-            tubes: 0,
             seconds: clock.elapsed().as_secs_f64(),
-            solutions: Vec::new(),
-            starts: Vec::new(),
-            degenerate: 0,
+            ..PathRecord::new(self.sketch.id, end, reason)
         };
         if limits.is_over() {
             return None;

@@ -136,6 +136,12 @@ pub struct Share {
     pub sketches: Vec<(Sketch, usize, Decimal)>,
 }
 
+/// So many threads; 0 is one per processor.
+fn pool(jobs: usize) -> Result<rayon::ThreadPool, ExploreError> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(jobs).build();
+    pool.map_err(|e| ExploreError::Threads(e.to_string()))
+}
+
 /// Why a process could not go on.
 #[derive(Debug, thiserror::Error)]
 pub enum ExploreError {

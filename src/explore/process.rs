@@ -62,8 +62,7 @@ pub fn look(figure: &[[f64; 3]], unit: f64) -> Vec<f64> {
 impl Explorer {
     /// Opens or makes the store in a folder. The process begins with the problem's sketch, or goes on.
     pub fn open(problem: &Problem, folder: &std::path::Path) -> Result<Self, ExploreError> {
-        servable(problem)?;
-        let base = Homotopy::new(problem).map_err(|e| ExploreError::Problem(e.to_string()))?;
+        let base = servable(problem)?;
         let store = Store::open(folder, &problem.to_toml())?;
         Self::with(problem.clone(), base, store)
     }
@@ -73,8 +72,7 @@ impl Explorer {
         let (store, text) = Store::existing(folder)?;
         let problem = Problem::parse(&text, "the store's problem")
             .map_err(|e| ExploreError::Problem(e.to_string()))?;
-        servable(&problem)?;
-        let base = Homotopy::new(&problem).map_err(|e| ExploreError::Problem(e.to_string()))?;
+        let base = servable(&problem)?;
         Self::with(problem, base, store)
     }
 
@@ -330,10 +328,7 @@ impl Explorer {
             cancel: options.cancel,
             deadline: options.time.map(|time| clock + time),
         };
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(options.jobs)
-            .build()
-            .map_err(|e| ExploreError::Threads(e.to_string()))?;
+        let pool = super::pool(options.jobs)?;
         let jobs = pool.current_num_threads();
         let mut change = Change::default();
         if options.take_back {
@@ -526,21 +521,12 @@ fn prove_again(homotopy: &Homotopy, met: &mut Met) -> bool {
 struct Undecided;
 
 fn broken(id: u64) -> PathRecord {
-    PathRecord {
-        id,
-        end: End::Stopped,
-        reason: Some("this is a bug in krawl, please report it".to_owned()),
-        by: None,
-        tubes: 0,
-        seconds: 0.0,
-        solutions: Vec::new(),
-        starts: Vec::new(),
-        degenerate: 0,
-    }
+    let reason = "this is a bug in krawl, please report it".to_owned();
+    PathRecord::new(id, End::Stopped, Some(reason))
 }
 
-/// Whether sketches can be made for a problem.
-fn servable(problem: &Problem) -> Result<(), ExploreError> {
+/// The homotopy of a problem for which sketches can be made.
+fn servable(problem: &Problem) -> Result<Homotopy, ExploreError> {
     let no = |why: &str| Err(ExploreError::Unserved(why.to_owned()));
     if problem.distances.is_empty() {
         return no("there are no distances between points, from which plans are made");
@@ -563,6 +549,6 @@ fn servable(problem: &Problem) -> Result<(), ExploreError> {
             "{} has coordinates of its own, and plans place points only",
             object.name
         )),
-        None => Ok(()),
+        None => Homotopy::new(problem).map_err(|e| ExploreError::Problem(e.to_string())),
     }
 }

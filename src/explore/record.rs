@@ -160,6 +160,23 @@ pub struct PathRecord {
     pub degenerate: usize,
 }
 
+impl PathRecord {
+    /// Of a sketch that ended so before anything was found.
+    pub fn new(id: u64, end: End, reason: Option<String>) -> Self {
+        PathRecord {
+            id,
+            end,
+            reason,
+            by: None,
+            tubes: 0,
+            seconds: 0.0,
+            solutions: Vec::new(),
+            starts: Vec::new(),
+            degenerate: 0,
+        }
+    }
+}
+
 /// Solutions that are congruent, as one.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Class {

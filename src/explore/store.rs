@@ -307,15 +307,9 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let store = Store::open(folder.path(), "name = \"one\"").unwrap();
         let path = PathRecord {
-            id: 4,
-            end: End::Closed,
-            reason: None,
-            by: None,
             tubes: 3,
             seconds: 0.1,
-            solutions: Vec::new(),
-            starts: Vec::new(),
-            degenerate: 0,
+            ..PathRecord::new(4, End::Closed, None)
         };
         let change = Change {
             sketches: vec![sketch(3), sketch(4), sketch(5)],

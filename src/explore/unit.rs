@@ -133,10 +133,7 @@ pub fn work(
     let known = go_on(&mut file, share).map_err(at)?;
     let of = share.sketches.len();
     let done = Mutex::new((file, known.len()));
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(jobs)
-        .build()
-        .map_err(|e| ExploreError::Threads(e.to_string()))?;
+    let pool = super::pool(jobs)?;
     let (problem, known) = (&problem, &known);
     let result: Result<(), String> = pool.install(|| {
         use rayon::prelude::*;

@@ -111,6 +111,14 @@ impl Drawing {
         (!matches!(self.shape(object), Shape::Line(_))).then_some(object)
     }
 
+    /// A line as an angle takes it: by its ends in the other order where it is the angle with the line reversed.
+    pub fn directed(&self, line: usize, reversed: bool) -> Vec<Item> {
+        match *self.shape(line) {
+            Shape::Line([a, b]) if reversed => vec![Item::Point(b), Item::Point(a)],
+            _ => vec![Item::Object(line)],
+        }
+    }
+
     /// What a constraint of the file is called there.
     pub fn name(&mut self, source: Source, name: String) {
         self.names.insert(source, name);

@@ -6,7 +6,7 @@
 //! dimensions they tie to which others is said.
 
 use super::drawing::{Drawing, Finished};
-use super::{Figure, Imported, Listed, Places as AllPlaces, Tied};
+use super::{Changed, Figure, Imported, Listed, Places as AllPlaces, Tied};
 use crate::order::InOrder;
 use crate::places::Each as _;
 use crate::problem::{Item, Problem, Shape};
@@ -14,10 +14,13 @@ use roxmltree::{Document, Node};
 use std::collections::HashMap;
 use std::io::{Cursor, Read, Write};
 use std::ops::Range;
+use std::str::FromStr;
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipArchive, ZipWriter};
 
 const DOCUMENT: &str = "Document.xml";
+/// Where the centre of a circle or arc stands.
+const CENTER: [&str; 2] = ["CenterX", "CenterY"];
 /// What stands for "no geometry".
 const NONE: i64 = -2000;
 
@@ -77,28 +80,29 @@ fn property<'a>(object: Node<'a, 'a>, name: &str) -> Option<Node<'a, 'a>> {
         .find(|n| n.has_tag_name("Property") && n.attribute("name") == Some(name))
 }
 
-fn number(node: Node, key: &str) -> f64 {
-    node.attribute(key)
-        .and_then(|x| x.parse().ok())
-        .unwrap_or(0.0)
+/// A number of an attribute; zero where there is none.
+fn number<T: FromStr + Default>(node: Node, key: &str) -> T {
+    let text = node.attribute(key);
+    text.and_then(|x| x.parse().ok()).unwrap_or_default()
 }
 
 fn whole(node: Node, key: &str) -> i64 {
-    node.attribute(key)
-        .and_then(|x| x.parse().ok())
-        .unwrap_or(0)
+    number(node, key)
+}
+
+/// The elements of a kind in a property of an object.
+fn listed<'a>(object: Node<'a, 'a>, key: &str, tag: &'static str) -> Vec<Node<'a, 'a>> {
+    let all = property(object, key).into_iter();
+    all.flat_map(|n| n.descendants().filter(|n| n.has_tag_name(tag)))
+        .collect()
 }
 
 fn constraints<'a>(object: Node<'a, 'a>) -> Vec<Node<'a, 'a>> {
-    let all = property(object, "Constraints").into_iter();
-    all.flat_map(|n| n.descendants().filter(|n| n.has_tag_name("Constrain")))
-        .collect()
+    listed(object, "Constraints", "Constrain")
 }
 
 fn geometry<'a>(object: Node<'a, 'a>, key: &str) -> Vec<Node<'a, 'a>> {
-    let all = property(object, key).into_iter();
-    all.flat_map(|n| n.descendants().filter(|n| n.has_tag_name("Geometry")))
-        .collect()
+    listed(object, key, "Geometry")
 }
 
 fn is_driving(constraint: Node) -> bool {
@@ -160,14 +164,8 @@ pub struct Places {
     numbers: Vec<(Range<usize>, Number, f64)>,
     /// For each constraint of the file where its value is.
     values: Vec<Range<usize>>,
-    sources: Vec<Option<usize>>,
-}
-
-impl Places {
     /// For each distance, then each constraint, what of the file it is.
-    pub fn sources(&self) -> &[Option<usize>] {
-        &self.sources
-    }
+    pub sources: Vec<Option<usize>>,
 }
 
 struct Reader {
@@ -186,8 +184,21 @@ impl Reader {
         }
     }
 
-    /// A point of an edge; its coordinates stand in attributes with these beginnings if they are stored.
-    fn point(&mut self, name: String, at: [f64; 2], fixed: bool) -> usize {
+    /// A point of an edge, whose coordinates stand in these attributes; one of external geometry stays where it is.
+    fn point(&mut self, name: String, shape: Node, keys: [&str; 2], fixed: bool) -> usize {
+        let at = keys.each(|key| number(shape, key));
+        if fixed {
+            return self.drawing.fixed_point(name, at);
+        }
+        let point = self.drawing.point(name, at);
+        for (axis, key) in keys.into_iter().enumerate() {
+            self.place(shape, key, Number::Coordinate(point, axis));
+        }
+        point
+    }
+
+    /// An end of an arc, which is not stored.
+    fn arc_end(&mut self, name: String, at: [f64; 2], fixed: bool) -> usize {
         match fixed {
             true => self.drawing.fixed_point(name, at),
             false => self.drawing.point(name, at),
@@ -212,35 +223,20 @@ impl Reader {
             self.edges.insert(id, Drawn::Other);
             return;
         };
-        let at = |x: &str, y: &str| [number(shape, x), number(shape, y)];
-        let keep = |reader: &mut Self, point: usize, keys: [&str; 2]| {
-            if !fixed {
-                for (axis, key) in keys.into_iter().enumerate() {
-                    reader.place(shape, key, Number::Coordinate(point, axis));
-                }
-            }
-        };
         let drawn = match shape.tag_name().name() {
             "LineSegment" => {
-                let a = self.point(format!("{name}.start"), at("StartX", "StartY"), fixed);
-                let b = self.point(format!("{name}.end"), at("EndX", "EndY"), fixed);
-                keep(self, a, ["StartX", "StartY"]);
-                keep(self, b, ["EndX", "EndY"]);
+                let a = self.point(format!("{name}.start"), shape, ["StartX", "StartY"], fixed);
+                let b = self.point(format!("{name}.end"), shape, ["EndX", "EndY"], fixed);
                 let object = self.drawing.line(name, [a, b]);
                 Drawn::Line {
                     ends: [a, b],
                     object,
                 }
             }
-            "GeomPoint" => {
-                let p = self.point(name, at("X", "Y"), fixed);
-                keep(self, p, ["X", "Y"]);
-                Drawn::Point(p)
-            }
+            "GeomPoint" => Drawn::Point(self.point(name, shape, ["X", "Y"], fixed)),
             "Circle" => {
-                let center = self.point(format!("{name}.center"), at("CenterX", "CenterY"), fixed);
-                keep(self, center, ["CenterX", "CenterY"]);
-                let radius = number(shape, "Radius");
+                let center = self.point(format!("{name}.center"), shape, CENTER, fixed);
+                let radius: f64 = number(shape, "Radius");
                 let object = self.drawing.circle(name, center, radius);
                 if let Some(object) = object {
                     if fixed {
@@ -253,12 +249,13 @@ impl Reader {
                 Drawn::Circle { center, object }
             }
             _ => {
-                let [x, y] = at("CenterX", "CenterY");
-                let radius = number(shape, "Radius");
-                let turned = number(shape, "AngleXU");
-                let clockwise = number(shape, "NormalZ") < 0.0;
+                let center = self.point(format!("{name}.center"), shape, CENTER, fixed);
+                let [x, y] = self.drawing.at(center);
+                let radius: f64 = number(shape, "Radius");
+                let turned: f64 = number(shape, "AngleXU");
+                let clockwise = number::<f64>(shape, "NormalZ") < 0.0;
                 let end = |key: &str| {
-                    let angle = number(shape, key);
+                    let angle: f64 = number(shape, key);
                     let angle = if clockwise {
                         turned - angle
                     } else {
@@ -267,10 +264,8 @@ impl Reader {
                     [x + radius * angle.cos(), y + radius * angle.sin()]
                 };
                 let ends = [end("StartAngle"), end("EndAngle")];
-                let center = self.point(format!("{name}.center"), [x, y], fixed);
-                let a = self.point(format!("{name}.start"), ends[0], fixed);
-                let b = self.point(format!("{name}.end"), ends[1], fixed);
-                keep(self, center, ["CenterX", "CenterY"]);
+                let a = self.arc_end(format!("{name}.start"), ends[0], fixed);
+                let b = self.arc_end(format!("{name}.end"), ends[1], fixed);
                 if !fixed {
                     self.place(shape, "Radius", Number::Apart(center, a));
                     self.place(
@@ -345,14 +340,6 @@ impl Reader {
         self.drawing.if_round(object)
     }
 
-    /// A line as an angle takes it: away from the end that the constraint names, from the second end to the first if it is that.
-    fn measured_from_end(&self, (_, position): (i64, i64), line: usize) -> Vec<Item> {
-        match *self.drawing.shape(line) {
-            Shape::Line([a, b]) if position == 2 => vec![Item::Point(b), Item::Point(a)],
-            _ => vec![Item::Object(line)],
-        }
-    }
-
     fn ends_of(&mut self, id: i64) -> Option<[usize; 2]> {
         match self.edge(id)? {
             Drawn::Line { ends, .. } => Some(ends),
@@ -360,127 +347,119 @@ impl Reader {
         }
     }
 
+    fn points_of(&mut self, both: [(i64, i64); 2]) -> Option<[usize; 2]> {
+        Some([self.point_of(both[0])?, self.point_of(both[1])?])
+    }
+
+    fn are_lines(&self, edges: [usize; 2]) -> [bool; 2] {
+        edges.each(|edge| matches!(self.drawing.shape(edge), Shape::Line(_)))
+    }
+
     /// Puts a constraint down; `None` where there is no kind for it.
     fn constraint(&mut self, index: usize, node: Node) -> Option<()> {
         let source = Some(index);
         let side = |name: &str| (whole(node, name), whole(node, &format!("{name}Pos")));
         let (first, second, third) = (side("First"), side("Second"), side("Third"));
-        let value = number(node, "Value");
+        let value: f64 = number(node, "Value");
         let has_second = second.0 != NONE;
-        match whole(node, "Type") {
-            1 => {
-                let points = [self.point_of(first)?, self.point_of(second)?];
-                let items = points.each(Item::Point).to_vec();
-                self.drawing.constrain(source, "coincident", items, None);
-            }
+        let points = |points: [usize; 2]| points.each(Item::Point).to_vec();
+        let objects = |objects: [usize; 2]| objects.each(Item::Object).to_vec();
+        let mut said = None;
+        let (key, items) = match whole(node, "Type") {
+            1 => ("coincident", points(self.points_of([first, second])?)),
             kind @ (2 | 3) => {
-                let key = if kind == 2 { "horizontal" } else { "vertical" };
                 let ends = match (first.1, has_second) {
                     (0, false) => self.ends_of(first.0)?,
-                    (_, true) => [self.point_of(first)?, self.point_of(second)?],
+                    (_, true) => self.points_of([first, second])?,
                     _ => return None,
                 };
-                let items = ends.each(Item::Point).to_vec();
-                self.drawing.constrain(source, key, items, None);
+                let key = if kind == 2 { "horizontal" } else { "vertical" };
+                (key, points(ends))
             }
             4 => {
                 let lines = [self.line_of(first.0)?, self.line_of(second.0)?];
-                self.drawing
-                    .constrain(source, "parallel", lines.each(Item::Object).to_vec(), None);
+                ("parallel", objects(lines))
             }
             5 if third.0 == NONE => return self.tangent(index, first, second),
-            6 => match (first.1, second) {
-                (0, (NONE, _)) => {
-                    let ends = self.ends_of(first.0)?;
-                    self.drawing.distance(index, ends, value);
-                }
-                (1.., (_, 1..)) => {
-                    let points = [self.point_of(first)?, self.point_of(second)?];
-                    self.drawing.distance(index, points, value);
-                }
-                (1.., _) => {
-                    let (p, l) = (self.point_of(first)?, self.line_of(second.0)?);
-                    let (kind, value) = match value {
-                        0.0 => ("on", None),
-                        _ => ("distances", Some(value.abs())),
-                    };
-                    let items = vec![Item::Point(p), Item::Object(l)];
-                    self.drawing.constrain(source, kind, items, value);
-                }
-                _ => return None,
-            },
-            kind @ (7 | 8) => {
-                let axis = kind - 7;
-                if first.1 != 0 && !has_second {
-                    let p = self.point_of(first)?;
-                    let key = if axis == 0 { "x" } else { "y" };
-                    self.drawing
-                        .constrain(source, key, vec![Item::Point(p)], Some(value));
-                    return Some(());
-                }
-                let ends = match (first.1, has_second) {
-                    (0, false) => self.ends_of(first.0)?,
-                    (1.., true) => [self.point_of(first)?, self.point_of(second)?],
+            6 if first.1 > 0 && second.1 <= 0 => {
+                let (p, l) = (self.point_of(first)?, self.line_of(second.0)?);
+                said = (value != 0.0).then_some(value.abs());
+                let key = if said.is_none() { "on" } else { "distances" };
+                (key, vec![Item::Point(p), Item::Object(l)])
+            }
+            6 => {
+                let ends = match (first.1, second) {
+                    (0, (NONE, _)) => self.ends_of(first.0)?,
+                    (1.., _) => self.points_of([first, second])?,
                     _ => return None,
                 };
-                let items = ends.each(Item::Point).to_vec();
-                let key = if axis == 0 { "dx" } else { "dy" };
-                self.drawing.constrain(source, key, items, Some(value));
+                self.drawing.distance(index, ends, value);
+                return Some(());
+            }
+            kind @ (7 | 8) => {
+                said = Some(value);
+                let is_x = kind == 7;
+                if first.1 != 0 && !has_second {
+                    let key = if is_x { "x" } else { "y" };
+                    (key, vec![Item::Point(self.point_of(first)?)])
+                } else {
+                    let ends = match (first.1, has_second) {
+                        (0, false) => self.ends_of(first.0)?,
+                        (1.., true) => self.points_of([first, second])?,
+                        _ => return None,
+                    };
+                    (if is_x { "dx" } else { "dy" }, points(ends))
+                }
             }
             9 if third.0 == NONE => {
                 let one = self.line_of(first.0)?;
                 let other = self.line_of(if has_second { second.0 } else { -1 })?;
                 let degrees = degrees(value).abs() % 360.0;
-                let degrees = if degrees > 180.0 {
-                    360.0 - degrees
-                } else {
-                    degrees
-                };
-                let (kind, value) = match degrees {
-                    0.0 | 180.0 => ("parallel", None),
-                    _ => ("angles", Some(degrees)),
-                };
-                let items = match (kind, has_second) {
-                    ("angles", true) => [
-                        self.measured_from_end(first, one),
-                        self.measured_from_end(second, other),
-                    ]
-                    .concat(),
-                    _ => vec![Item::Object(one), Item::Object(other)],
-                };
-                self.drawing.constrain(source, kind, items, value);
+                let degrees = degrees.min(360.0 - degrees);
+                match degrees {
+                    0.0 | 180.0 => ("parallel", objects([one, other])),
+                    _ => {
+                        said = Some(degrees);
+                        let items = match has_second {
+                            // Away from the end that the constraint names.
+                            true => [
+                                self.drawing.directed(one, first.1 == 2),
+                                self.drawing.directed(other, second.1 == 2),
+                            ]
+                            .concat(),
+                            false => objects([one, other]),
+                        };
+                        ("angles", items)
+                    }
+                }
             }
             10 if third.0 == NONE => return self.perpendicular(index, first, second),
             kind @ (11 | 18) => {
-                let round = self.round_of(first.0)?;
+                said = Some(value);
                 let key = if kind == 11 { "radii" } else { "diameters" };
-                self.drawing
-                    .constrain(source, key, vec![Item::Object(round)], Some(value));
+                (key, vec![Item::Object(self.round_of(first.0)?)])
             }
             12 => {
                 let edges = [self.object_of(first.0)?, self.object_of(second.0)?];
-                let lines = edges.each(|e| matches!(self.drawing.shape(e), Shape::Line(_)));
-                if lines[0] != lines[1] {
+                let [one, other] = self.are_lines(edges);
+                if one != other {
                     return None;
                 }
-                self.drawing
-                    .constrain(source, "equal", edges.each(Item::Object).to_vec(), None);
+                ("equal", objects(edges))
             }
             13 => {
                 let (p, edge) = (self.point_of(first)?, self.object_of(second.0)?);
-                let items = vec![Item::Point(p), Item::Object(edge)];
-                self.drawing.constrain(source, "on", items, None);
+                ("on", vec![Item::Point(p), Item::Object(edge)])
             }
             14 => {
-                let (a, b) = (self.point_of(first)?, self.point_of(second)?);
+                let [a, b] = self.points_of([first, second])?;
                 let mirror = match third {
                     (-1, 0) => Item::Axis(0),
                     (-2, 0) => Item::Axis(1),
                     (id, 0) => Item::Object(self.line_of(id)?),
                     _ => Item::Point(self.point_of(third)?),
                 };
-                let items = vec![Item::Point(a), Item::Point(b), mirror];
-                self.drawing.constrain(source, "symmetric", items, None);
+                ("symmetric", vec![Item::Point(a), Item::Point(b), mirror])
             }
             17 => {
                 let points = match self.edge(first.0)? {
@@ -492,45 +471,49 @@ impl Reader {
                     self.drawing
                         .constrain(source, "fixed", vec![Item::Point(p)], None);
                 }
+                return Some(());
             }
             _ => return None,
-        }
+        };
+        self.drawing.constrain(source, key, items, said);
         Some(())
+    }
+
+    /// Says that edges meet, end to end or an end on the other edge: each side is an edge and the point of it.
+    fn meet(
+        &mut self,
+        index: usize,
+        [first, second]: [(i64, i64); 2],
+        edges: [usize; 2],
+    ) -> Option<[(usize, usize); 2]> {
+        let source = Some(index);
+        if first.1 != 0 && second.1 != 0 {
+            let points = self.points_of([first, second])?;
+            let items = points.each(Item::Point).to_vec();
+            self.drawing.constrain(source, "coincident", items, None);
+            return Some([(edges[0], points[0]), (edges[1], points[1])]);
+        }
+        let (end, [own, other]) = match first.1 {
+            0 => (self.point_of(second)?, [edges[1], edges[0]]),
+            _ => (self.point_of(first)?, edges),
+        };
+        let items = vec![Item::Point(end), Item::Object(other)];
+        self.drawing.constrain(source, "on", items, None);
+        Some([(own, end), (other, end)])
     }
 
     /// End to end, end to edge, or edge to edge.
     fn tangent(&mut self, index: usize, first: (i64, i64), second: (i64, i64)) -> Option<()> {
         let edges = [self.object_of(first.0)?, self.object_of(second.0)?];
-        match (first.1, second.1) {
-            (0, 0) => {
-                let lines = edges.each(|e| matches!(self.drawing.shape(e), Shape::Line(_)));
-                if lines[0] && lines[1] {
-                    return None;
-                }
-                self.drawing.touch(index, edges);
-                Some(())
+        if (first.1, second.1) == (0, 0) {
+            if self.are_lines(edges) == [true; 2] {
+                return None;
             }
-            (1.., 1..) => {
-                let points = [self.point_of(first)?, self.point_of(second)?];
-                let items = points.each(Item::Point).to_vec();
-                self.drawing
-                    .constrain(Some(index), "coincident", items, None);
-                let sides = [(edges[0], points[0]), (edges[1], points[1])];
-                self.drawing.touch_at(index, sides).then_some(())
-            }
-            _ => {
-                // The end of one is on the other.
-                let (end, [own, other]) = match first.1 {
-                    0 => (self.point_of(second)?, [edges[1], edges[0]]),
-                    _ => (self.point_of(first)?, edges),
-                };
-                let items = vec![Item::Point(end), Item::Object(other)];
-                self.drawing.constrain(Some(index), "on", items, None);
-                self.drawing
-                    .touch_at(index, [(own, end), (other, end)])
-                    .then_some(())
-            }
+            self.drawing.touch(index, edges);
+            return Some(());
         }
+        let sides = self.meet(index, [first, second], edges)?;
+        self.drawing.touch_at(index, sides).then_some(())
     }
 
     fn perpendicular(&mut self, index: usize, first: (i64, i64), second: (i64, i64)) -> Option<()> {
@@ -549,17 +532,8 @@ impl Reader {
             }
         }
         let lines = [self.line_of(first.0)?, self.line_of(second.0)?];
-        if first.1 != 0 && second.1 != 0 {
-            let points = [self.point_of(first)?, self.point_of(second)?];
-            let items = points.each(Item::Point).to_vec();
-            self.drawing.constrain(source, "coincident", items, None);
-        } else if first.1 != 0 || second.1 != 0 {
-            let (point, line) = match first.1 {
-                0 => (self.point_of(second)?, lines[0]),
-                _ => (self.point_of(first)?, lines[1]),
-            };
-            let items = vec![Item::Point(point), Item::Object(line)];
-            self.drawing.constrain(source, "on", items, None);
+        if (first.1, second.1) != (0, 0) {
+            self.meet(index, [first, second], lines)?;
         }
         let items = lines.each(Item::Object).to_vec();
         self.drawing.constrain(source, "perpendicular", items, None);
@@ -631,9 +605,8 @@ fn tied(object: Node, sources: &[Option<usize>], problem: &Problem) -> Vec<Tied>
         });
         all.collect()
     };
-    let engine = property(object, "ExpressionEngine").into_iter();
-    let all = engine.flat_map(|n| n.descendants().filter(|n| n.has_tag_name("Expression")));
-    let tied = all.flat_map(|node| {
+    let all = listed(object, "ExpressionEngine", "Expression");
+    let tied = all.into_iter().flat_map(|node| {
         let text = |key: &str| node.attribute(key).unwrap_or("");
         let (of, expression) = (named(text("path")), text("expression"));
         let on = named(expression);
@@ -756,15 +729,18 @@ pub fn rewrite(
             changes.push((range.clone(), now));
         }
     }
-    for (index, value) in super::changed(&imported.problem, problem) {
-        let source = places.sources.get(index).copied().flatten();
-        let source = source.ok_or_else(|| super::no_number(problem, index))?;
+    for changed in super::changed(imported, problem, &places.sources) {
+        let Changed {
+            index,
+            source,
+            value,
+            before,
+        } = changed?;
         let range = places.values.get(source).cloned().unwrap_or(0..0);
         let said: f64 = text
             .get(range.clone())
             .and_then(|x| x.parse().ok())
             .unwrap_or(f64::NAN);
-        let before = super::value(&imported.problem, index);
         let is_angle = index
             .checked_sub(problem.distances.len())
             .is_some_and(|c| problem.constraints[c].kind == "angles");

@@ -34,7 +34,7 @@ mod slvs;
 pub mod urdf;
 
 use crate::complete::Surplus;
-use crate::problem::{Decimal, Problem, Target};
+use crate::problem::{Decimal, Problem};
 pub use molecule::{Conformer, Skeleton};
 use std::collections::BTreeMap;
 
@@ -279,21 +279,13 @@ impl Imported {
     /// objects, which stay as they are, are not.
     pub fn has_number(&self, index: usize) -> bool {
         let sources = match &self.places {
-            Places::SolveSpace(places) => places.sources(),
+            Places::SolveSpace(places) => &places.sources,
             #[cfg(feature = "freecad")]
-            Places::FreeCad(places) => places.sources(),
+            Places::FreeCad(places) => &places.sources,
             Places::Molecule(_) => return true,
         };
         sources.get(index).is_some_and(Option::is_some)
     }
-}
-
-/// Why a dimension cannot be changed.
-fn no_number(problem: &Problem, index: usize) -> String {
-    format!(
-        "`{}` is of geometry of another group or object, which stays as it is: there is no number of this sketch to change",
-        problem.dimension_name(index)
-    )
 }
 
 fn broken(file: &str, what: String) -> ImportError {
@@ -306,10 +298,7 @@ fn broken(file: &str, what: String) -> ImportError {
 /// The value of a dimension in floats; zero where it has none.
 fn value(problem: &Problem, index: usize) -> f64 {
     match index.checked_sub(problem.distances.len()) {
-        None => match &problem.distances[index].target {
-            Target::Length(x) => x.to_f64(),
-            Target::SquaredLength(x) => x.to_f64().sqrt(),
-        },
+        None => problem.distances[index].target.to_f64(),
         Some(c) => problem.constraints[c]
             .value
             .as_ref()
@@ -317,17 +306,41 @@ fn value(problem: &Problem, index: usize) -> f64 {
     }
 }
 
-/// The dimensions that have another value in `now`, by index, with that value.
-fn changed(before: &Problem, now: &Problem) -> Vec<(usize, f64)> {
-    let head = before.distances.len();
+/// A dimension that has another value than the file.
+struct Changed {
+    index: usize,
+    /// What of the file it is.
+    source: usize,
+    value: f64,
+    before: f64,
+}
+
+/// The dimensions that have another value in `now`; `sources`: for each what of the file it is, of which some are nothing that
+/// can be changed.
+fn changed(
+    imported: &Imported,
+    now: &Problem,
+    sources: &[Option<usize>],
+) -> impl Iterator<Item = Result<Changed, String>> {
+    let before = &imported.problem;
     let lengths = before.distances.iter().zip(&now.distances);
-    let lengths = lengths
-        .enumerate()
-        .filter(|(_, (a, b))| a.target != b.target);
+    let lengths = lengths.map(|(a, b)| a.target != b.target);
     let others = before.constraints.iter().zip(&now.constraints);
-    let others = others.enumerate().filter(|(_, (a, b))| a.value != b.value);
-    let indices = lengths
-        .map(|(index, _)| index)
-        .chain(others.map(|(index, _)| head + index));
-    indices.map(|index| (index, value(now, index))).collect()
+    let others = others.map(|(a, b)| a.value != b.value);
+    let indices = lengths.chain(others).enumerate();
+    indices.filter(|(_, is_new)| *is_new).map(move |(index, _)| {
+        let source = sources.get(index).copied().flatten();
+        let source = source.ok_or_else(|| {
+            format!(
+                "`{}` is of geometry of another group or object, which stays as it is: there is no number of this sketch to change",
+                now.dimension_name(index)
+            )
+        })?;
+        Ok(Changed {
+            index,
+            source,
+            value: value(now, index),
+            before: value(before, index),
+        })
+    })
 }

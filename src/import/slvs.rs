@@ -6,7 +6,8 @@
 //! mean is that of SolveSpace's `constrainteq.cpp`.
 
 use super::drawing::{Drawing, Finished, SNAP};
-use super::{Figure, Imported, Listed, Places as AllPlaces};
+use super::{Changed, Figure, Imported, Listed, Places as AllPlaces};
+use crate::interval::vector::{cross, dot, minus};
 use crate::order::each_once;
 use crate::places::{Each as _, array};
 use crate::problem::{Item, Problem, Shape};
@@ -68,10 +69,8 @@ impl<'a> Record<'a> {
 /// All things of a file that matter here.
 struct Contents<'a> {
     records: Vec<Record<'a>>,
-    params: HashMap<Handle, usize>,
-    entities: HashMap<Handle, usize>,
-    requests: HashMap<Handle, usize>,
-    groups: Vec<usize>,
+    /// Where a record of a kind and a handle is.
+    places: HashMap<(&'a str, Handle), usize>,
 }
 
 /// The lines of a file, without their ends; the first one is not text in the files of all versions.
@@ -93,10 +92,7 @@ impl<'a> Contents<'a> {
         }
         let mut contents = Contents {
             records: Vec::new(),
-            params: HashMap::new(),
-            entities: HashMap::new(),
-            requests: HashMap::new(),
-            groups: Vec::new(),
+            places: HashMap::new(),
         };
         let mut record = Record::default();
         for (at, line) in lines(bytes).into_iter().enumerate() {
@@ -109,31 +105,30 @@ impl<'a> Contents<'a> {
                 record.kind = kind;
                 record.end = at;
                 let (index, handle) = (contents.records.len(), record.handle());
-                match kind {
-                    "Param" => drop(contents.params.insert(handle, index)),
-                    "Entity" => drop(contents.entities.insert(handle, index)),
-                    "Request" => drop(contents.requests.insert(handle, index)),
-                    "Group" => contents.groups.push(index),
-                    _ => {}
-                }
+                contents.places.insert((kind, handle), index);
                 contents.records.push(std::mem::take(&mut record));
             }
         }
         Ok(contents)
     }
 
+    fn record(&self, kind: &'static str, handle: Handle) -> Option<&Record<'a>> {
+        let index = self.places.get(&(kind, handle))?;
+        Some(&self.records[*index])
+    }
+
     fn entity(&self, handle: Handle) -> Option<&Record<'a>> {
-        self.entities.get(&handle).map(|&i| &self.records[i])
+        self.record("Entity", handle)
     }
 
     fn param(&self, handle: Handle) -> f64 {
-        let record = self.params.get(&handle).map(|&i| &self.records[i]);
+        let record = self.record("Param", handle);
         record.map_or(0.0, |record| record.number("val"))
     }
 
     /// The groups in a plane, with their names made different.
     fn sketches(&self) -> Vec<(&Record<'a>, String)> {
-        let groups = self.groups.iter().map(|&i| &self.records[i]);
+        let groups = self.records.iter().filter(|record| record.kind == "Group");
         let groups: Vec<&Record> = groups.filter(|g| g.whole("type") == IN_PLANE).collect();
         let name = |group: &Record| group.text("name").unwrap_or("sketch").to_owned();
         let names: Vec<String> = groups.iter().map(|group| name(group)).collect();
@@ -171,10 +166,7 @@ impl<'a> Contents<'a> {
         if entity & 0x8000_0000 != 0 {
             return None;
         }
-        let request = self
-            .requests
-            .get(&(entity >> 16))
-            .map(|&i| &self.records[i]);
+        let request = self.record("Request", entity >> 16);
         request.filter(|request| request.hex("group.v") == group)
     }
 
@@ -236,13 +228,12 @@ impl Plane {
 
     /// The direction at a right angle to it.
     fn normal(&self) -> [f64; 3] {
-        let ([a, b, c], [d, e, f]) = (self.u, self.v);
-        [b * f - c * e, c * d - a * f, a * e - b * d]
+        cross(self.u, self.v)
     }
 
     fn seen(&self, place: [f64; 3]) -> [f64; 2] {
-        let from: [f64; 3] = array(|k| place[k] - self.origin[k]);
-        [self.u, self.v].each(|axis| (0..3).map(|k| axis[k] * from[k]).sum())
+        let from = minus(place, self.origin);
+        [self.u, self.v].each(|axis| dot(axis, from))
     }
 
     fn in_space(&self, [u, v]: [f64; 2]) -> [f64; 3] {
@@ -258,15 +249,8 @@ pub struct Places {
     points: Vec<Option<([Handle; 2], Handle)>>,
     /// For each object, if it is a circle, its parameter and the entity of its radius.
     radii: Vec<Option<(Handle, Handle)>>,
-    /// For each dimension or constraint the constraint it is.
-    sources: Vec<Option<usize>>,
-}
-
-impl Places {
     /// For each distance, then each constraint, what of the file it is.
-    pub fn sources(&self) -> &[Option<usize>] {
-        &self.sources
-    }
+    pub sources: Vec<Option<usize>>,
 }
 
 pub fn list(bytes: &[u8]) -> Result<Vec<Listed>, String> {
@@ -347,6 +331,43 @@ fn straightened(x: f64) -> f64 {
         large if (large - 1.0).abs() <= ROUNDED => x.signum(),
         _ => x,
     }
+}
+
+/// What a constraint names in one of its fields.
+#[derive(Clone, Copy)]
+enum Sort {
+    Point,
+    Line,
+    /// A circle or an arc.
+    Round,
+}
+
+/// What a constraint of a kind names, in the order in which krawl's kind has it, and in which field: but for work planes and normals.
+/// `None`: there is no such kind.
+fn named(kind: u32, has_entity: bool) -> Option<&'static [(Sort, &'static str)]> {
+    const A: (Sort, &str) = (Sort::Point, "ptA");
+    const B: (Sort, &str) = (Sort::Point, "ptB");
+    const LINE_A: (Sort, &str) = (Sort::Line, "entityA");
+    const LINE_B: (Sort, &str) = (Sort::Line, "entityB");
+    const LINE_C: (Sort, &str) = (Sort::Line, "entityC");
+    const LINE_D: (Sort, &str) = (Sort::Line, "entityD");
+    const ROUND_A: (Sort, &str) = (Sort::Round, "entityA");
+    const ROUND_B: (Sort, &str) = (Sort::Round, "entityB");
+    Some(match kind {
+        80 | 81 if has_entity => &[LINE_A],
+        20 | 30 | 34 | 60..=62 | 80 | 81 => &[A, B],
+        31 | 41 | 200 => &[A],
+        32 | 42 | 70 => &[A, LINE_A],
+        50 | 51 | 56 | 120..=122 => &[LINE_A, LINE_B],
+        53 => &[A, LINE_A, B, LINE_B],
+        54 => &[LINE_A, LINE_B, LINE_C, LINE_D],
+        63 => &[A, B, LINE_A],
+        90 => &[ROUND_A],
+        100 => &[A, ROUND_A],
+        123 => &[ROUND_A, LINE_B],
+        125 | 130 => &[ROUND_A, ROUND_B],
+        _ => return None,
+    })
 }
 
 /// A sketch as it is read.
@@ -511,8 +532,7 @@ impl<'a> Reader<'a> {
         }
         let plane = Plane::new(self.contents, handle)?;
         let normal = plane.normal();
-        let dot = |a: [f64; 3], b: [f64; 3]| (0..3).map(|k| a[k] * b[k]).sum::<f64>();
-        let from: [f64; 3] = array(|k| plane.origin[k] - self.plane.origin[k]);
+        let from = minus(plane.origin, self.plane.origin);
         let across = [self.plane.u, self.plane.v].each(|axis| straightened(dot(normal, axis)));
         let is_right = dot(normal, self.plane.normal()).abs() <= ROUNDED;
         if let Some(&line) = self.objects.get(&handle) {
@@ -544,7 +564,6 @@ impl<'a> Reader<'a> {
             return None;
         }
         let normal = Plane::turned([0.0; 3], entity).normal();
-        let dot = |a: [f64; 3], b: [f64; 3]| (0..3).map(|k| a[k] * b[k]).sum::<f64>();
         if dot(normal, self.plane.normal()).abs() > ROUNDED {
             return None;
         }
@@ -567,8 +586,7 @@ impl<'a> Reader<'a> {
         let Some([from, to]) = ends else {
             return false;
         };
-        let along: [f64; 3] = array(|k| to[k] - from[k]);
-        let dot = |a: [f64; 3], b: [f64; 3]| (0..3).map(|k| a[k] * b[k]).sum::<f64>();
+        let along = minus(to, from);
         dot(along, self.plane.normal()).abs() <= ROUNDED * dot(along, along).sqrt()
     }
 
@@ -596,20 +614,12 @@ impl<'a> Reader<'a> {
                 points.into_iter().all(|point| {
                     let normal = self.plane.normal();
                     self.contents.place_in_space(point).is_some_and(|place| {
-                        let from = (0..3).map(|k| normal[k] * (place[k] - self.plane.origin[k]));
+                        let from = dot(normal, minus(place, self.plane.origin));
                         let size = place.iter().fold(1.0f64, |most, x| most.max(x.abs()));
-                        from.sum::<f64>().abs() <= ROUNDED * size
+                        from.abs() <= ROUNDED * size
                     })
                 })
             })
-    }
-
-    /// A line as an angle takes it: by its ends in the other order where it is the angle with the line reversed.
-    fn directed(&self, line: usize, reversed: bool) -> Vec<Item> {
-        match *self.drawing.shape(line) {
-            Shape::Line([a, b]) if reversed => vec![Item::Point(b), Item::Point(a)],
-            _ => vec![Item::Object(line)],
-        }
     }
 
     /// The direction of a line, as it is drawn.
@@ -650,6 +660,7 @@ impl<'a> Reader<'a> {
         let source = Some(index);
         let handle = |key: &str| record.hex(&format!("{key}.v"));
         let (value, kind) = (record.number("valA"), record.whole("type"));
+        let is_other = record.whole("other") != 0;
         let workplane = handle("workplane");
         if workplane != self.workplane && !matches!(kind, 20 | 50 | 90 | 130 | 200) {
             // In space, of things that are all in the sketch's plane, these say what they say there.
@@ -658,47 +669,52 @@ impl<'a> Reader<'a> {
                 return None;
             }
         }
-        let point = Item::Point;
-        let object = Item::Object;
-        match kind {
-            20 => {
-                let (a, b) = (self.point(handle("ptA"))?, self.point(handle("ptB"))?);
-                self.drawing
-                    .constrain(source, "coincident", vec![point(a), point(b)], None);
-            }
-            30 => {
-                let (a, b) = (self.point(handle("ptA"))?, self.point(handle("ptB"))?);
+        if kind == 34 && value == 0.0 {
+            // Of zero the figure does not tell which sign is the file's, so it could not be given back.
+            return None;
+        }
+        let named = named(kind, handle("entityA") != 0)?;
+        let (mut numbers, mut items) = (Vec::new(), Vec::new());
+        for &(sort, key) in named {
+            let number = match sort {
+                Sort::Point => self.point(handle(key))?,
+                Sort::Line => self.line(handle(key))?,
+                Sort::Round => self.round(handle(key))?,
+            };
+            numbers.push(number);
+            items.push(match sort {
+                Sort::Point => Item::Point(number),
+                _ => Item::Object(number),
+            });
+        }
+        let mut said = None;
+        let key = match (kind, &numbers[..]) {
+            (20, _) => "coincident",
+            (30, &[a, b]) => {
                 self.drawing.distance(index, [a, b], value);
+                return Some(());
             }
-            32 => {
-                let (p, l) = (self.point(handle("ptA"))?, self.line(handle("entityA"))?);
-                let (kind, value) = match value {
-                    0.0 => ("on", None),
-                    _ => ("distances", Some(value.abs())),
-                };
-                self.drawing
-                    .constrain(source, kind, vec![point(p), object(l)], value);
+            (32, _) if value != 0.0 => {
+                said = Some(value.abs());
+                "distances"
             }
-            31 => {
-                let p = self.point(handle("ptA"))?;
+            (32 | 42 | 100, _) => "on",
+            (31 | 41 | 60, _) => {
                 let (line, is_right) = self.trace(handle("entityA"))?;
-                let items = vec![point(p), object(line)];
-                match value {
-                    0.0 => self.drawing.constrain(source, "on", items, None),
-                    // At another angle the distance in the plane of the sketch is another.
+                items.push(Item::Object(line));
+                match (kind, value) {
+                    (31, 0.0) | (41, _) => "on",
+                    // About a plane at another angle only points in it are mirror images of points of the sketch, and the
+                    // distance in the plane of the sketch is another.
                     _ if !is_right => return None,
+                    (60, _) => "symmetric",
                     _ => {
-                        let value = Some(value.abs());
-                        self.drawing.constrain(source, "distances", items, value);
+                        said = Some(value.abs());
+                        "distances"
                     }
                 }
             }
-            34 => {
-                if value == 0.0 {
-                    // Of zero the figure does not tell which sign is the file's, so it could not be given back.
-                    return None;
-                }
-                let (a, b) = (self.point(handle("ptA"))?, self.point(handle("ptB"))?);
+            (34, &[a, b]) => {
                 let along = handle("entityA");
                 let line = match self.line(along) {
                     Some(line) if self.is_in_plane(along) => line,
@@ -712,195 +728,78 @@ impl<'a> Reader<'a> {
                 };
                 let [from, to] = [a, b].each(|p| self.drawing.at(p));
                 let apart = [to[0] - from[0], to[1] - from[1]];
-                // The sign in the file goes by the line's direction; what it means is seen in the figure.
-                let signed = |now: f64| Some(if now < 0.0 { -value.abs() } else { value.abs() });
                 // Along a line that stays where it is, parallel to an axis.
                 let is_fixed = ends.iter().all(|&p| self.places[p].is_none());
-                let axis = match (dx, dy) {
-                    (_, 0.0) if is_fixed => Some(0),
-                    (0.0, _) if is_fixed => Some(1),
-                    _ => None,
+                let (key, now) = match (dx, dy) {
+                    (_, 0.0) if is_fixed => ("dx", apart[0]),
+                    (0.0, _) if is_fixed => ("dy", apart[1]),
+                    _ => {
+                        items.push(Item::Object(line));
+                        ("along", dx * apart[0] + dy * apart[1])
+                    }
                 };
-                match axis {
-                    Some(axis) => {
-                        let value = signed(apart[axis]);
-                        let kind = ["dx", "dy"][axis];
-                        self.drawing
-                            .constrain(source, kind, vec![point(a), point(b)], value);
-                    }
-                    None => {
-                        let value = signed(dx * apart[0] + dy * apart[1]);
-                        let items = vec![point(a), point(b), object(line)];
-                        self.drawing.constrain(source, "along", items, value);
-                    }
-                }
+                // The sign in the file goes by the line's direction; what it means is seen in the figure.
+                said = Some(if now < 0.0 { -value.abs() } else { value.abs() });
+                key
             }
-            41 => {
-                let p = self.point(handle("ptA"))?;
-                let (line, _) = self.trace(handle("entityA"))?;
-                let items = vec![point(p), object(line)];
-                self.drawing.constrain(source, "on", items, None);
-            }
-            42 => {
-                let (p, l) = (self.point(handle("ptA"))?, self.line(handle("entityA"))?);
-                self.drawing
-                    .constrain(source, "on", vec![point(p), object(l)], None);
-            }
-            50 => {
-                let lines = [self.line(handle("entityA"))?, self.line(handle("entityB"))?];
-                self.drawing
-                    .constrain(source, "equal", lines.each(object).to_vec(), None);
-            }
-            51 | 56 => {
-                let lines = [self.line(handle("entityA"))?, self.line(handle("entityB"))?];
-                let key = if kind == 51 { "ratios" } else { "differences" };
-                if lines[0] == lines[1] || (kind == 51 && value <= 0.0) {
+            (50 | 130, _) => "equal",
+            (51 | 56, &[a, b]) => {
+                if a == b || (kind == 51 && value <= 0.0) {
                     return None;
                 }
-                let items = lines.each(object).to_vec();
-                self.drawing.constrain(source, key, items, Some(value));
+                said = Some(value);
+                if kind == 51 { "ratios" } else { "differences" }
             }
-            54 => {
-                let mut lines = [0; 4];
-                for (line, key) in lines
-                    .iter_mut()
-                    .zip(["entityA", "entityB", "entityC", "entityD"])
-                {
-                    *line = self.line(handle(key))?;
-                }
-                let [a, b, c, d] = lines;
-                let sign = if record.whole("other") != 0 {
-                    -1.0
-                } else {
-                    1.0
-                };
+            (53, _) => "equal_distances",
+            (54, &[a, b, c, d]) => {
+                let sign = if is_other { -1.0 } else { 1.0 };
                 let (one, other) = (sign * self.clear_cosine(a, b)?, self.clear_cosine(c, d)?);
                 // Which of the angles of lines are equal is read off the figure, which has to tell that, as the file does.
                 let is_told = one * other > 0.0;
                 if !is_told || a == b || c == d {
                     return None;
                 }
-                let items = lines.each(object).to_vec();
-                self.drawing.constrain(source, "equal_angles", items, None);
+                "equal_angles"
             }
-            53 => {
-                let (p, l) = (self.point(handle("ptA"))?, self.line(handle("entityA"))?);
-                let (q, k) = (self.point(handle("ptB"))?, self.line(handle("entityB"))?);
-                let items = vec![point(p), object(l), point(q), object(k)];
-                self.drawing
-                    .constrain(source, "equal_distances", items, None);
+            (61 | 62, _) => {
+                items.push(Item::Axis(usize::from(kind == 61)));
+                "symmetric"
             }
-            60 => {
-                let (a, b) = (self.point(handle("ptA"))?, self.point(handle("ptB"))?);
-                let (line, is_right) = self.trace(handle("entityA"))?;
-                // About a plane at another angle only points in it are mirror images of points of the sketch.
-                if !is_right {
-                    return None;
-                }
-                let items = vec![point(a), point(b), object(line)];
-                self.drawing.constrain(source, "symmetric", items, None);
+            (63, _) => "symmetric",
+            (70, _) => "midpoint",
+            (80, _) => "horizontal",
+            (81, _) => "vertical",
+            (90, _) => {
+                said = Some(value);
+                "diameters"
             }
-            61 | 62 => {
-                let (a, b) = (self.point(handle("ptA"))?, self.point(handle("ptB"))?);
-                let axis = Item::Axis(usize::from(kind == 61));
-                self.drawing
-                    .constrain(source, "symmetric", vec![point(a), point(b), axis], None);
-            }
-            63 => {
-                let (a, b) = (self.point(handle("ptA"))?, self.point(handle("ptB"))?);
-                let line = self.line(handle("entityA"))?;
-                let items = vec![point(a), point(b), object(line)];
-                self.drawing.constrain(source, "symmetric", items, None);
-            }
-            70 => {
-                let (p, l) = (self.point(handle("ptA"))?, self.line(handle("entityA"))?);
-                self.drawing
-                    .constrain(source, "midpoint", vec![point(p), object(l)], None);
-            }
-            80 | 81 => {
-                let key = if kind == 80 { "horizontal" } else { "vertical" };
-                let items = match handle("entityA") {
-                    0 => {
-                        let (a, b) = (self.point(handle("ptA"))?, self.point(handle("ptB"))?);
-                        vec![point(a), point(b)]
-                    }
-                    line => vec![object(self.line(line)?)],
-                };
-                self.drawing.constrain(source, key, items, None);
-            }
-            90 => {
-                let round = self.round(handle("entityA"))?;
-                self.drawing
-                    .constrain(source, "diameters", vec![object(round)], Some(value));
-            }
-            100 => {
-                let (p, c) = (self.point(handle("ptA"))?, self.round(handle("entityA"))?);
-                self.drawing
-                    .constrain(source, "on", vec![point(p), object(c)], None);
-            }
-            120 => {
-                let [a, b] = [self.line(handle("entityA"))?, self.line(handle("entityB"))?];
-                let (kind, value) = match value.abs() {
-                    0.0 | 180.0 => ("parallel", None),
-                    angle if angle < 180.0 => ("angles", Some(angle)),
-                    _ => return None,
-                };
-                let items = match kind {
-                    "parallel" => vec![object(a), object(b)],
+            (120, &[a, b]) => match value.abs() {
+                0.0 | 180.0 => "parallel",
+                angle if angle < 180.0 => {
                     // Which of both angles it is the file says at a right angle too.
-                    _ => {
-                        let first = self.directed(a, record.whole("other") != 0);
-                        [first, vec![object(b)]].concat()
-                    }
-                };
-                self.drawing.constrain(source, kind, items, value);
-            }
-            121 | 122 => {
-                let lines = [self.line(handle("entityA"))?, self.line(handle("entityB"))?];
-                let kind = if kind == 121 {
-                    "parallel"
-                } else {
-                    "perpendicular"
-                };
-                self.drawing
-                    .constrain(source, kind, lines.each(object).to_vec(), None);
-            }
-            123 => {
-                let (arc, line) = (
-                    self.round(handle("entityA"))?,
-                    self.line(handle("entityB"))?,
-                );
-                let end = self.end(arc, record.whole("other") != 0)?;
-                if !self.drawing.touch_at(index, [(line, end), (arc, end)]) {
-                    return None;
+                    items = [self.drawing.directed(a, is_other), vec![Item::Object(b)]].concat();
+                    said = Some(angle);
+                    "angles"
                 }
+                _ => return None,
+            },
+            (121, _) => "parallel",
+            (122, _) => "perpendicular",
+            (123, &[arc, line]) => {
+                let end = self.end(arc, is_other)?;
+                let sides = [(line, end), (arc, end)];
+                return self.drawing.touch_at(index, sides).then_some(());
             }
-            125 => {
-                let (a, b) = (
-                    self.round(handle("entityA"))?,
-                    self.round(handle("entityB"))?,
-                );
-                let one = self.end(a, record.whole("other") != 0)?;
+            (125, &[a, b]) => {
+                let one = self.end(a, is_other)?;
                 let other = self.end(b, record.whole("other2") != 0)?;
-                if !self.drawing.touch_at(index, [(a, one), (b, other)]) {
-                    return None;
-                }
+                let sides = [(a, one), (b, other)];
+                return self.drawing.touch_at(index, sides).then_some(());
             }
-            130 => {
-                let rounds = [
-                    self.round(handle("entityA"))?,
-                    self.round(handle("entityB"))?,
-                ];
-                self.drawing
-                    .constrain(source, "equal", rounds.each(object).to_vec(), None);
-            }
-            200 => {
-                let p = self.point(handle("ptA"))?;
-                self.drawing
-                    .constrain(source, "fixed", vec![point(p)], None);
-            }
+            (200, _) => "fixed",
             _ => return None,
-        }
+        };
+        self.drawing.constrain(source, key, items, said);
         Some(())
     }
 
@@ -975,11 +874,8 @@ pub fn rewrite(
         };
         let mut moves = false;
         for (param, value) in params.iter().zip([x, y]) {
-            let record = contents
-                .params
-                .get(param)
-                .ok_or_else(|| missing("a parameter"))?;
-            let record = &contents.records[*record];
+            let record = contents.record("Param", *param);
+            let record = record.ok_or_else(|| missing("a parameter"))?;
             moves |= record.number("val") != value;
             edits.number(record, "val", value);
         }
@@ -997,18 +893,20 @@ pub fn rewrite(
         let Some((param, entity)) = place else {
             continue;
         };
-        let record = contents
-            .params
-            .get(param)
-            .ok_or_else(|| missing("a radius"))?;
-        edits.number(&contents.records[*record], "val", radius);
+        let record = contents.record("Param", *param);
+        let record = record.ok_or_else(|| missing("a radius"))?;
+        edits.number(record, "val", radius);
         if let Some(record) = contents.entity(*entity) {
             edits.number(record, "actDistance", radius);
         }
     }
-    for (index, value) in super::changed(&imported.problem, problem) {
-        let source = places.sources.get(index).copied().flatten();
-        let source = source.ok_or_else(|| super::no_number(problem, index))?;
+    for changed in super::changed(imported, problem, &places.sources) {
+        let Changed {
+            index,
+            source,
+            value,
+            before,
+        } = changed?;
         let record = contents
             .records
             .get(source)
@@ -1020,7 +918,6 @@ pub fn rewrite(
             _ => value,
         };
         // A distance from a line has a sign in the file, a projection that of its line.
-        let before = super::value(&imported.problem, index);
         let sign = if record.number("valA") * before < 0.0 {
             -1.0
         } else {

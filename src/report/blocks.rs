@@ -1,10 +1,11 @@
 //! A problem that was followed block by block, and the figures of the whole that come of it.
 
 use super::columns::written;
+use super::complete::counted_or_many;
 use super::edit::{points_to_value, write_points};
-use super::figures::{IN_JSON, Listed, write_more};
+use super::figures::{IN_JSON, Listed, chosen_in_words, write_more};
 use super::json::Run;
-use crate::blocks::{Combined, CombinedChoice};
+use crate::blocks::Combined;
 use crate::problem::Problem;
 use crate::track::{Mode, Options, Outcome, Status};
 use serde_json::{Value, json};
@@ -63,11 +64,7 @@ impl BlockRuns<'_> {
             false => "up to motions, mirror images among them",
         };
         let count = combined.count();
-        let number = match count {
-            Some(1) => "1 figure".to_owned(),
-            Some(n) => format!("{n} figures"),
-            None => "more than 2^64 figures".to_owned(),
-        };
+        let number = counted_or_many(count, "figure");
         let blocks = "those whose blocks are solutions listed above, one of each block, as they are or mirrored";
         match (count, self.all_proved()) {
             (Some(0), true) => {
@@ -100,7 +97,8 @@ impl BlockRuns<'_> {
         let numbers = Listed::of(all).in_table(count, each);
         for number in numbers.clone() {
             let choices = combined.choices(number);
-            writeln!(out, "\nFigure {}: {}", number + 1, in_words(&choices))?;
+            let chosen = choices.iter().map(|c| (c.block, c.solution, c.mirrored));
+            writeln!(out, "\nFigure {}: {}", number + 1, chosen_in_words(chosen))?;
             match combined.figure(&choices) {
                 Some(points) => write_points(out, self.problem, &points)?,
                 None => writeln!(out, "  (its boxes are too wide to put the blocks together)")?,
@@ -145,17 +143,4 @@ impl BlockRuns<'_> {
         });
         value
     }
-}
-
-/// `block 1 solution 1, block 2 solution 3 mirrored`.
-fn in_words(choices: &[CombinedChoice]) -> String {
-    let each = choices.iter().map(|choice| {
-        format!(
-            "block {} solution {}{}",
-            choice.block + 1,
-            choice.solution + 1,
-            if choice.mirrored { " mirrored" } else { "" }
-        )
-    });
-    each.collect::<Vec<_>>().join(", ")
 }

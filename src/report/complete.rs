@@ -2,7 +2,7 @@
 
 use super::columns::{DIGITS, write_digits, written};
 use super::drawing::{Drawing, all_names, names};
-use super::json::Points;
+use super::json::{Points, text, value};
 use super::objects::Objects;
 use super::supposed::supposed;
 use super::table::write_objects;
@@ -38,14 +38,12 @@ const LISTED: usize = 24;
 /// Points are as in the JSON of a run along the path: pairs of bounds in the problem's units, seen from the
 /// reference points.
 pub fn complete_to_json(problem: &Problem, result: &Complete) -> String {
-    serde_json::to_string(&Document::new(problem, result))
-        .expect("strings, numbers and lists have a form in JSON")
+    text(&Document::new(problem, result))
 }
 
 /// What [`complete_to_json`] writes, as a value in memory.
 pub fn complete_to_value(problem: &Problem, result: &Complete) -> serde_json::Value {
-    serde_json::to_value(Document::new(problem, result))
-        .expect("strings, numbers and lists have a form in JSON")
+    value(&Document::new(problem, result))
 }
 
 impl<'a> Document<'a> {
@@ -67,18 +65,8 @@ impl<'a> Document<'a> {
                     boxes: part.result.boxes,
                 })
                 .collect(),
-            independent: result
-                .choices
-                .iter()
-                .map(|choice| Independent {
-                    names: &choice.names,
-                    count: choice.count,
-                })
-                .collect(),
-            decided_first: result.first_choice.as_ref().map(|choice| Independent {
-                names: &choice.names,
-                count: choice.count,
-            }),
+            independent: &result.choices,
+            decided_first: result.first_choice.as_ref(),
             tested: result.tested.as_ref().map(Counts::new),
             signed: result.signed.map(Signs::from),
             solutions: result
@@ -124,10 +112,10 @@ struct Document<'a> {
     count: Option<u64>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     parts: Vec<Piece<'a>>,
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    independent: Vec<Independent<'a>>,
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    independent: &'a [Choice],
     #[serde(skip_serializing_if = "Option::is_none")]
-    decided_first: Option<Independent<'a>>,
+    decided_first: Option<&'a Choice>,
     #[serde(skip_serializing_if = "Option::is_none")]
     tested: Option<Counts<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -224,13 +212,6 @@ struct Piece<'a> {
     status: &'static str,
     solutions: usize,
     boxes: u64,
-}
-
-/// What is placed in one of several ways, whatever else there is.
-#[derive(serde::Serialize)]
-struct Independent<'a> {
-    names: &'a [String],
-    count: usize,
 }
 
 #[derive(serde::Serialize)]
@@ -467,13 +448,9 @@ fn verdict(problem: &Problem, result: &Complete) -> String {
 fn without_sides(problem: &Problem, result: &Complete) -> String {
     let (up_to, different) = counted_once(problem, result.symmetry);
     let (count, have) = match &result.tested {
-        None => (counted_solutions(result.count), String::new()),
+        None => (counted_or_many(result.count, "solution"), String::new()),
         Some(tested) => (
-            tested
-                .found
-                .map_or("more than 2^64 figures".to_owned(), |found| {
-                    counted(found as usize, "figure")
-                }),
+            counted_or_many(tested.found, "figure"),
             format!(
                 " with {} of the {} {}",
                 tested.used, tested.all, tested.what
@@ -611,11 +588,11 @@ pub(super) fn tested_in_words(tested: &Tested) -> String {
     text
 }
 
-/// A number of solutions; `None`: it has no place in 64 bits.
-fn counted_solutions(count: Option<u64>) -> String {
+/// A number of solutions or figures; `None`: it has no place in 64 bits.
+pub(super) fn counted_or_many(count: Option<u64>, what: &str) -> String {
     match count {
-        Some(count) => counted(count as usize, "solution"),
-        None => "more than 2^64 solutions".to_owned(),
+        Some(count) => counted(count as usize, what),
+        None => format!("more than 2^64 {what}s"),
     }
 }
 
@@ -667,7 +644,7 @@ pub fn among_in_words(among: Among) -> String {
 /// What a checked cover proves.
 pub fn cover_theorem(verdict: &CoverVerdict, took: std::time::Duration) -> String {
     let name = &verdict.problem.name;
-    let count = counted_solutions(verdict.solutions);
+    let count = counted_or_many(verdict.solutions, "solution");
     let seconds = took.as_secs_f64();
     let parts = counted(verdict.parts as usize, "part");
     let (up_to, different) = counted_once(&verdict.problem, symmetry(&verdict.problem));

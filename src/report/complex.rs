@@ -9,7 +9,7 @@ use crate::complex::{Lowered, Nature, SolutionBox, Solutions, Status};
 use crate::constraint::{Symmetry, symmetry};
 use crate::interval::{Interval, point};
 use crate::places::Each as _;
-use crate::problem::{Problem, Target, counted, list};
+use crate::problem::{Problem, counted, list};
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
 
@@ -396,10 +396,7 @@ fn sum_of_lengths(problem: &Problem, split: &Split) -> String {
             (_, false) => " + ",
             (_, true) => " - ",
         };
-        let length = match &distance.target {
-            Target::Length(length) => length.to_f64(),
-            Target::SquaredLength(squared) => squared.to_f64().sqrt(),
-        };
+        let length = distance.target.to_f64();
         let [a, b] = [from, to].each(|p| problem.points[p].name.as_str());
         text += &format!("{sign}{length} ({a}-{b})");
     }

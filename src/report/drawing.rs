@@ -1,12 +1,12 @@
 //! What a result says of its problem, so that its figures can be drawn without the problem file.
 
-use super::json::{Exact, Points};
+use super::json::{Points, value};
 use super::objects::Objects;
 use crate::interval::Interval;
 use crate::places::Each as _;
 use crate::problem::{Decimal, Problem, Target};
 use crate::system::{Gauge, Placement};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 /// The keys that results of all verbs with figures have in common (docs/using/programs.md, "The problem").
@@ -36,21 +36,24 @@ struct Frame {
     axes: Vec<Vec<f64>>,
 }
 
-#[derive(Serialize)]
-struct Constraint<'a> {
-    kind: &'a str,
-    items: Vec<&'a str>,
+/// A constraint.
+#[derive(Serialize, Deserialize)]
+pub(super) struct Constraint<'a> {
+    pub kind: &'a str,
+    pub items: Vec<&'a str>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    name: Option<String>,
+    pub name: Option<String>,
+    /// A decimal as a text, so that it stays exact.
     #[serde(skip_serializing_if = "Option::is_none")]
-    value: Option<Exact<'a>>,
+    pub value: Option<String>,
 }
 
-#[derive(Serialize)]
-struct Object<'a> {
-    name: &'a str,
-    kind: &'static str,
-    points: Vec<&'a str>,
+/// An object: the points that it goes through.
+#[derive(Serialize, Deserialize)]
+pub(super) struct Object<'a> {
+    pub name: &'a str,
+    pub kind: &'a str,
+    pub points: Vec<&'a str>,
 }
 
 impl<'a> Drawing<'a> {
@@ -102,7 +105,7 @@ impl<'a> Drawing<'a> {
     /// # Panics
     /// If it is no object.
     pub fn with(&self, own: Value) -> Value {
-        let mut value = serde_json::to_value(self).expect("strings, numbers and lists only");
+        let mut value = value(self);
         let Value::Object(own) = own else {
             panic!("results are objects");
         };
@@ -123,7 +126,7 @@ impl Frame {
 }
 
 /// The names of points, by number.
-pub(super) fn names<'a>(problem: &'a Problem, points: &[usize]) -> Vec<&'a str> {
+pub(crate) fn names<'a>(problem: &'a Problem, points: &[usize]) -> Vec<&'a str> {
     points
         .iter()
         .map(|&p| problem.points[p].name.as_str())
@@ -157,7 +160,7 @@ fn constraints_of(problem: &Problem) -> Vec<Constraint<'_>> {
             kind,
             items: names(problem, &distance.points),
             name: name(index, true),
-            value: Some(Exact(value)),
+            value: Some(value.to_string()),
         }
     });
     let others = problem.constraints.iter().enumerate();
@@ -170,7 +173,7 @@ fn constraints_of(problem: &Problem) -> Vec<Constraint<'_>> {
                 Some(formula) => Some(formula.text.clone()),
                 None => name(problem.distances.len() + index, constraint.value.is_some()),
             },
-            value: constraint.value.as_ref().map(Exact),
+            value: constraint.value.as_ref().map(Decimal::to_string),
         }
     });
     distances.chain(others).collect()

@@ -452,19 +452,24 @@ pub fn edit_to_value(problem: &Problem, edited: &Edited, moved: Moved) -> Value 
             "reason": dragged.stop.as_ref().map(|stop| &stop.text),
         });
     }
-    let unknowns = numbers_to_value(problem, &edited.objects, true, middle);
-    if unknowns.as_object().is_some_and(|all| !all.is_empty()) {
-        value["unknowns"] = unknowns;
-    }
-    if let Some(joints) = joints_to_value(problem, &edited.objects, |x| x.mid()) {
-        value["joints"] = joints;
-    }
+    add_objects(&mut value, problem, &edited.objects, |x| x.mid());
     value
 }
 
-/// The middle of a box, as a float.
-fn middle(x: Interval) -> Value {
-    json!(x.mid())
+/// Adds the values of unknown numbers, bodies with joints and joints of a figure to what is said of it, each number as `number` has it.
+pub(super) fn add_objects<C: Coordinate>(
+    value: &mut Value,
+    problem: &Problem,
+    objects: &[Located],
+    number: fn(&Interval) -> C,
+) {
+    let unknowns = numbers_to_value(problem, objects, true, number);
+    if unknowns.as_object().is_some_and(|all| !all.is_empty()) {
+        value["unknowns"] = unknowns;
+    }
+    if let Some(joints) = joints_to_value(problem, objects, number) {
+        value["joints"] = joints;
+    }
 }
 
 /// An edit as `krawl edit --json` writes it: with what is said of every problem (docs/using/programs.md, "The problem"), and with
@@ -473,7 +478,7 @@ pub fn edit_to_document(problem: &Problem, edited: &Edited, session: &Session) -
     let mut value = edit_to_value(problem, edited, session.moved());
     // The session's figure is the new one where that was reached.
     if edited.ending == Ending::Reached {
-        value["radii"] = numbers_to_value(problem, &session.objects(), false, middle);
+        value["radii"] = numbers_to_value(problem, &session.objects(), false, |x| x.mid());
     }
     Drawing::in_place("edit", problem).with(value)
 }
@@ -608,16 +613,18 @@ fn own<'a>(
 }
 
 /// The radii of circles, or the values of unknown numbers, by name, each as `number` has it.
-pub(super) fn numbers_to_value(
+pub(super) fn numbers_to_value<C: Coordinate>(
     problem: &Problem,
     objects: &[Located],
     are_unknowns: bool,
-    number: impl Fn(Interval) -> Value,
+    number: fn(&Interval) -> C,
 ) -> Value {
     let objects = own(problem, objects);
     let objects = objects.filter(|(o, _)| matches!(o.shape, Shape::Number { .. }) == are_unknowns);
     let all: Map<String, Value> = objects
-        .filter_map(|(object, at)| Some((object.name.clone(), number(at.number()?))))
+        .filter_map(|(object, at)| {
+            Some((object.name.clone(), json!(number(&at.number()?).written())))
+        })
         .collect();
     Value::Object(all)
 }

@@ -2,7 +2,9 @@
 
 use super::columns::{DIGITS, write_digits, written};
 use super::drawing::Drawing;
-use super::json::{Points, WrittenFold, WrittenSample, written_folds, written_samples};
+use super::json::{
+    Points, WrittenFold, WrittenSample, text, value, written_folds, written_samples,
+};
 use crate::explore::{Class, End, Explorer, Finish, PathRecord, intervals};
 use crate::interval::Interval;
 use crate::interval::vector::{cross, dot};
@@ -366,14 +368,12 @@ struct Beside<'a> {
 
 /// The result as one line of JSON; docs/using/explore.md and docs/schema/explore.schema.json describe it.
 pub fn explore_to_json(explored: &Explored) -> String {
-    serde_json::to_string(&document(explored))
-        .expect("strings, numbers and lists have a form in JSON")
+    text(&document(explored))
 }
 
 /// What [`explore_to_json`] writes, as a value in memory.
 pub fn explore_to_value(explored: &Explored) -> serde_json::Value {
-    serde_json::to_value(document(explored))
-        .expect("strings, numbers and lists have a form in JSON")
+    value(&document(explored))
 }
 
 fn document<'a>(explored: &'a Explored) -> Document<'a> {

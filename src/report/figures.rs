@@ -2,10 +2,11 @@
 
 use super::columns::{DIGITS, written};
 use super::drawing::Drawing;
-use super::edit::{bounds, numbers_to_value, points_to_value, write_numbers, write_points};
-use super::objects::joints_to_value;
+use super::edit::{
+    add_objects, behind, numbers_to_value, points_to_value, write_numbers, write_points,
+};
 use super::supposed::{signs_not_looked_at, supposed};
-use crate::blocks::{BlockAccount, Chosen, Comparison, Figures, First, Sense, Way};
+use crate::blocks::{BlockAccount, Comparison, Figures, First, Sense, Way};
 use crate::problem::{Shape, counted, list};
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -287,8 +288,9 @@ fn write_figures(out: &mut String, figures: &Figures, listed: Listed) -> std::fm
     let each = (problem.points.len() + circles.count()) as u64 + 2;
     let numbers = listed.in_table(count, each);
     for number in numbers.clone() {
-        let chosen = chosen_in_words(&figures.chosen(number));
-        writeln!(out, "\nFigure {}{chosen}", number + 1)?;
+        let chosen = figures.chosen(number);
+        let chosen = chosen_in_words(chosen.iter().map(|&(b, s)| (b, s, false)));
+        writeln!(out, "\nFigure {}{}", number + 1, behind(": ", chosen))?;
         write_senses(out, figures, number)?;
         let (points, objects) = figures.figure(number);
         write_points(out, problem, &points)?;
@@ -377,16 +379,13 @@ fn block_in_words(account: &BlockAccount) -> String {
     )
 }
 
-/// `: block 1 solution 1, block 2 solution 3`.
-fn chosen_in_words(chosen: &[Chosen]) -> String {
-    let each = chosen
-        .iter()
-        .map(|(block, solution)| format!("block {} solution {}", block + 1, solution + 1));
-    let each: Vec<String> = each.collect();
-    match each.is_empty() {
-        true => String::new(),
-        false => format!(": {}", each.join(", ")),
-    }
+/// `block 1 solution 1, block 2 solution 3 mirrored`: blocks, their solutions, and whether these are mirrored.
+pub(super) fn chosen_in_words(chosen: impl Iterator<Item = (usize, usize, bool)>) -> String {
+    let each = chosen.map(|(block, solution, is_mirrored)| {
+        let mirrored = if is_mirrored { " mirrored" } else { "" };
+        format!("block {} solution {}{mirrored}", block + 1, solution + 1)
+    });
+    each.collect::<Vec<_>>().join(", ")
 }
 
 /// The figures as a value for programs (docs/using/programs.md, docs/schema/figures.schema.json).
@@ -404,16 +403,10 @@ pub fn figures_to_value(figures: &Figures, listed: Listed) -> Value {
             "number": number,
             "choices": chosen.collect::<Vec<_>>(),
             "points": points_to_value(problem, &points),
-            "radii": numbers_to_value(problem, &objects, false, bounds),
+            "radii": numbers_to_value(problem, &objects, false, |x| *x),
             "senses": senses_to_value(figures, number),
         });
-        let unknowns = numbers_to_value(problem, &objects, true, bounds);
-        if unknowns.as_object().is_some_and(|all| !all.is_empty()) {
-            value["unknowns"] = unknowns;
-        }
-        if let Some(joints) = joints_to_value(problem, &objects, |x| *x) {
-            value["joints"] = joints;
-        }
+        add_objects(&mut value, problem, &objects, |x| *x);
         value
     };
     let senses = figures.senses().map(|senses| {
@@ -422,19 +415,6 @@ pub fn figures_to_value(figures: &Figures, listed: Listed) -> Value {
             "names": senses.iter().map(|sense| &sense.name).collect::<Vec<_>>(),
             "kept": with.map(|with| with.proved),
             "undecided": with.map(|with| with.undecided),
-        })
-    });
-    let blocks = figures.blocks().map(|account| {
-        json!({
-            "unknowns": account.unknowns,
-            "way": match account.way {
-                Way::Formula => "formula",
-                Way::Path => "path",
-            },
-            "runs": account.runs,
-            "solutions": [account.solutions.0, account.solutions.1],
-            "tubes": account.tubes,
-            "doubt": account.doubt,
         })
     });
     let refused = figures.refused();
@@ -451,7 +431,7 @@ pub fn figures_to_value(figures: &Figures, listed: Listed) -> Value {
         "reason": doubt,
         "verdict": figures_in_words(figures),
         "count": count,
-        "blocks": blocks.collect::<Vec<_>>(),
+        "blocks": figures.blocks().collect::<Vec<_>>(),
         "account": figures.account(),
         "refused": refused.collect::<Vec<_>>(),
         "senses": senses,

@@ -55,8 +55,7 @@ impl<'a> Run<'a> {
     /// Numbers read back as the floats that they were written from. JSON has neither infinities nor
     /// NaN: in their place stands `null`.
     pub fn to_json(&self) -> String {
-        serde_json::to_string(&Document::new(self))
-            .expect("strings, numbers and lists have a form in JSON")
+        text(&Document::new(self))
     }
 
     /// The same, with how many of all figures the path has, where that is known, what one dimension can do alone, where the path has
@@ -67,32 +66,28 @@ impl<'a> Run<'a> {
         alone: &[Alone],
         measures: Option<Value>,
     ) -> String {
-        let whole = WithAll {
-            document: Document::new(self),
+        text(&Document {
             of_all: among.map(|among| among.all),
             alone: (!alone.is_empty()).then(|| alone_to_value(alone)),
             measures,
-        };
-        serde_json::to_string(&whole).expect("strings, numbers and lists have a form in JSON")
+            ..Document::new(self)
+        })
     }
 
     /// The results as a value in memory, with the keys of [`Run::to_json`].
-    pub fn to_value(&self) -> serde_json::Value {
-        serde_json::to_value(Document::new(self))
-            .expect("strings, numbers and lists have a form in JSON")
+    pub fn to_value(&self) -> Value {
+        value(&Document::new(self))
     }
 }
 
-#[derive(Serialize)]
-struct WithAll<'a> {
-    #[serde(flatten)]
-    document: Document<'a>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    of_all: Option<u64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    alone: Option<Value>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    measures: Option<Value>,
+/// A result as one line of JSON.
+pub(super) fn text(document: &impl Serialize) -> String {
+    serde_json::to_string(document).expect("strings, numbers and lists have a form in JSON")
+}
+
+/// A result as a value in memory.
+pub(super) fn value(document: &impl Serialize) -> Value {
+    serde_json::to_value(document).expect("strings, numbers and lists have a form in JSON")
 }
 
 #[derive(Serialize)]
@@ -125,6 +120,12 @@ struct Document<'a> {
     t_range: [f64; 2],
     seconds: f64,
     switched_on: &'a [String],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    of_all: Option<u64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    alone: Option<Value>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    measures: Option<Value>,
 }
 
 #[derive(Serialize)]
@@ -142,7 +143,7 @@ struct WrittenOptions<'a> {
 }
 
 /// A decimal as a text, so that it stays exact.
-pub(super) struct Exact<'a>(pub &'a Decimal);
+struct Exact<'a>(&'a Decimal);
 
 #[derive(Serialize)]
 struct Driving {
@@ -248,6 +249,9 @@ impl<'a> Document<'a> {
             t_range: [outcome.t_range.0, outcome.t_range.1],
             seconds: outcome.seconds,
             switched_on: &outcome.switched_on,
+            of_all: None,
+            alone: None,
+            measures: None,
         }
     }
 }

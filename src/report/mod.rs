@@ -28,6 +28,8 @@ mod table;
 mod theorem;
 mod tolerance;
 
+pub(crate) use drawing::names;
+
 #[doc(inline)]
 pub use crate::interval::certain_digits;
 #[cfg(feature = "cli")]

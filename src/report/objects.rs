@@ -1,6 +1,6 @@
 //! Where lines, planes, circles, spheres and arcs are, for programs.
 
-use super::json::Coordinate;
+use super::json::{Coordinate, value};
 use crate::interval::{Interval, enclose, point};
 use crate::places::Each as _;
 use crate::problem::{Decimal, Problem, Shape};
@@ -13,70 +13,34 @@ use serde_json::Value;
 /// their points are.
 pub(super) struct Objects<'a, C> {
     dimension: usize,
-    all: Vec<(&'a str, At<C>)>,
+    all: Vec<(&'a str, Located)>,
+    number: fn(&Interval) -> C,
 }
 
 /// Bodies with joints and joints alone, each number as `number` has it. `None`: there are none.
 pub(super) fn joints_to_value<C: Coordinate>(
     problem: &Problem,
     objects: &[Located],
-    number: impl Fn(&Interval) -> C,
+    number: fn(&Interval) -> C,
 ) -> Option<Value> {
-    let joints = objects.iter().map(|at| match at {
-        Located::Pose { .. } | Located::Joint { .. } => *at,
-        _ => Located::Body,
-    });
-    let joints: Vec<Located> = joints.collect();
-    let joints = Objects::new(problem, &joints, number);
-    let value = || serde_json::to_value(&joints).expect("names and numbers have a form in JSON");
-    (!joints.is_empty()).then(value)
-}
-
-enum At<C> {
-    Line { point: [C; 3], direction: [C; 3] },
-    Plane { point: [C; 3], normal: [C; 3] },
-    Round { center: [C; 3], radius: C },
-    Number(C),
-    Pose { at: [C; 3], axes: [[C; 3]; 3] },
-    Joint { turn: Option<C>, travel: Option<C> },
+    let mut joints = Objects::new(problem, objects, number);
+    joints
+        .all
+        .retain(|(_, at)| matches!(at, Located::Pose { .. } | Located::Joint { .. }));
+    (!joints.is_empty()).then(|| value(&joints))
 }
 
 impl<'a, C: Coordinate> Objects<'a, C> {
     /// The objects of a problem in a figure, each number of theirs as `number` has it.
-    pub fn new(problem: &'a Problem, objects: &[Located], number: impl Fn(&Interval) -> C) -> Self {
-        let three = |x: &[Interval; 3]| x.each_ref().map(&number);
-        let at = |located: &Located| {
-            Some(match located {
-                Located::Line { point, direction } => At::Line {
-                    point: three(point),
-                    direction: three(direction),
-                },
-                Located::Plane { point, normal } => At::Plane {
-                    point: three(point),
-                    normal: three(normal),
-                },
-                Located::Round { center, radius } => At::Round {
-                    center: three(center),
-                    radius: number(radius),
-                },
-                Located::Number(value) => At::Number(number(value)),
-                Located::Pose { at, axes } => At::Pose {
-                    at: three(at),
-                    axes: axes.each_ref().map(three),
-                },
-                Located::Joint { turn, travel } => At::Joint {
-                    turn: turn.as_ref().map(&number),
-                    travel: travel.as_ref().map(&number),
-                },
-                Located::Body => return None,
-            })
-        };
+    pub fn new(problem: &'a Problem, objects: &[Located], number: fn(&Interval) -> C) -> Self {
         let objects = problem.objects.iter().zip(objects);
+        let objects = objects.filter(|(_, at)| !matches!(at, Located::Body));
         Objects {
             dimension: problem.dimension,
             all: objects
-                .filter_map(|(object, located)| Some((object.name.as_str(), at(located)?)))
+                .map(|(object, at)| (object.name.as_str(), *at))
                 .collect(),
+            number,
         }
     }
 
@@ -128,48 +92,53 @@ impl<C: Coordinate> Serialize for Objects<'_, C> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut map = serializer.serialize_map(Some(self.all.len()))?;
         for (name, at) in &self.all {
-            map.serialize_entry(name, &Written(self.dimension, at))?;
+            map.serialize_entry(name, &Written(self, at))?;
         }
         map.end()
     }
 }
 
-struct Written<'a, C>(usize, &'a At<C>);
+struct Written<'a, C>(&'a Objects<'a, C>, &'a Located);
 
 impl<C: Coordinate> Serialize for Written<'_, C> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let place = |x: &[C; 3]| -> Vec<C::Written> {
-            x[..self.0].iter().map(Coordinate::written).collect()
-        };
-        let mut map = serializer.serialize_map(Some(2))?;
-        match self.1 {
-            At::Line { point, direction } => {
+        let Written(objects, at) = self;
+        let number = |x: &Interval| (objects.number)(x).written();
+        let place =
+            |x: &[Interval; 3]| -> Vec<_> { x[..objects.dimension].iter().map(number).collect() };
+        let mut map = serializer.serialize_map(None)?;
+        match at {
+            Located::Line { point, direction } => {
                 map.serialize_entry("point", &place(point))?;
                 map.serialize_entry("direction", &place(direction))?;
             }
-            At::Plane { point, normal } => {
+            Located::Plane { point, normal } => {
                 map.serialize_entry("point", &place(point))?;
                 map.serialize_entry("normal", &place(normal))?;
             }
-            At::Pose { at, axes } => {
+            Located::Pose { at, axes } => {
                 map.serialize_entry("at", &place(at))?;
-                for (name, axis) in ["x", "y", "z"].into_iter().zip(axes).take(self.0) {
+                for (name, axis) in ["x", "y", "z"]
+                    .into_iter()
+                    .zip(axes)
+                    .take(objects.dimension)
+                {
                     map.serialize_entry(name, &place(axis))?;
                 }
             }
-            At::Joint { turn, travel } => {
-                if let Some(turn) = turn {
-                    map.serialize_entry("turn", &turn.written())?;
-                }
-                if let Some(travel) = travel {
-                    map.serialize_entry("travel", &travel.written())?;
+            Located::Joint { turn, travel } => {
+                for (name, value) in [("turn", turn), ("travel", travel)] {
+                    if let Some(value) = value {
+                        map.serialize_entry(name, &number(value))?;
+                    }
                 }
             }
-            At::Number(value) => map.serialize_entry("value", &value.written())?,
-            At::Round { center, radius } => {
+            Located::Number(value) => map.serialize_entry("value", &number(value))?,
+            Located::Round { center, radius } => {
                 map.serialize_entry("center", &place(center))?;
-                map.serialize_entry("radius", &radius.written())?;
+                map.serialize_entry("radius", &number(radius))?;
             }
+            Located::Body => {}
         }
         map.end()
     }

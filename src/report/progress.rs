@@ -39,51 +39,45 @@ impl ProgressLine {
         ProgressLine { line, what }
     }
 
+    fn say(&self, text: impl FnOnce() -> String) {
+        if let Some(line) = &self.line {
+            line.set_message(text());
+        }
+    }
+
     /// Shows where the run is.
     pub fn show(&self, now: Progress) {
-        if let Some(line) = &self.line {
-            line.set_message(format!("{}{}", self.what, text(now)));
-        }
+        self.say(|| format!("{}{}", self.what, text(now)));
     }
 
     /// Shows where the check of a certificate is.
     pub fn show_check(&self, tubes: u64, solutions: usize) {
-        if let Some(line) = &self.line {
-            let what = &self.what;
-            line.set_message(format!(
-                "{what}tubes checked {tubes}   solutions {solutions}"
-            ));
-        }
+        let what = &self.what;
+        self.say(|| format!("{what}tubes checked {tubes}   solutions {solutions}"));
     }
 
     /// Shows where the check of a cover is.
     pub fn show_cover(&self, now: CoverStage) {
-        if let Some(line) = &self.line {
-            let (parts, percent) = (now.parts, 100.0 * now.share);
-            line.set_message(format!(
-                "parts proved {parts}   {percent:.1} % of the cover"
-            ));
-        }
+        let (parts, percent) = (now.parts, 100.0 * now.share);
+        self.say(|| format!("parts proved {parts}   {percent:.1} % of the cover"));
     }
 
     /// Shows where the search for all solutions is: what is left is guessed from what is done.
     pub fn show_search(&self, now: Searched, seconds: f64) {
-        if let Some(line) = &self.line {
-            let (share, fresh) = (now.share, now.share - now.before);
-            let left = seconds * (1.0 - share) / fresh.max(1e-9);
-            line.set_message(format!(
+        let (share, fresh) = (now.share, now.share - now.before);
+        let left = seconds * (1.0 - share) / fresh.max(1e-9);
+        self.say(|| {
+            format!(
                 "{:.4} % of the parameter space   boxes {}   perhaps {left:.0} s left",
                 100.0 * share,
                 now.boxes
-            ));
-        }
+            )
+        });
     }
 
     /// Shows where the search for complex solutions is: the text says.
     pub fn show_text(&self, text: String) {
-        if let Some(line) = &self.line {
-            line.set_message(text);
-        }
+        self.say(|| text);
     }
 
     /// Takes the line away.

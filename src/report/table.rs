@@ -18,7 +18,7 @@ use std::fmt::{self, Write};
 /// The results as a text of several lines: what was found and what that means, the solutions,
 /// the numbers of the run. `tested`: where there are more distances than unknowns, what came of those that were left out.
 pub fn to_table(problem: &Problem, outcome: &Outcome, tested: Option<&Tested>) -> String {
-    table(problem, (outcome, tested), usize::MAX)
+    table(problem, outcome, tested, usize::MAX)
 }
 
 /// Solutions are listed as long as they fit in so many lines.
@@ -33,7 +33,7 @@ pub fn to_short_table(problem: &Problem, outcome: &Outcome, tested: Option<&Test
         true => usize::MAX,
         false => (LINES_OF_MANY / each).max(1),
     };
-    table(problem, (outcome, tested), most)
+    table(problem, outcome, tested, most)
 }
 
 /// The result in one line: name, how it ended, solutions, classes, seconds, and the reason where the
@@ -111,15 +111,16 @@ pub fn to_no_first(problem: &Problem, turns_at: Option<(f64, f64)>) -> String {
     )
 }
 
-/// A run, and where there are more distances than unknowns what came of those that were left out.
-type Ran<'a> = (&'a Outcome, Option<&'a Tested>);
-
-fn table(problem: &Problem, ran: Ran, most: usize) -> String {
-    written(|out| write_table(out, problem, ran, most))
+fn table(problem: &Problem, outcome: &Outcome, tested: Option<&Tested>, most: usize) -> String {
+    written(|out| write_table(out, problem, (outcome, tested), most))
 }
 
-fn write_table(out: &mut String, problem: &Problem, ran: Ran, most: usize) -> fmt::Result {
-    let (outcome, tested) = ran;
+fn write_table(
+    out: &mut String,
+    problem: &Problem,
+    (outcome, tested): (&Outcome, Option<&Tested>),
+    most: usize,
+) -> fmt::Result {
     writeln!(
         out,
         "{}: {}",

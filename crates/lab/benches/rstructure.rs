@@ -36,6 +36,15 @@ enum Below {
     Full,
 }
 
+impl Below {
+    fn name(self) -> &'static str {
+        match self {
+            Below::Sparse => "sparse",
+            Below::Full => "full",
+        }
+    }
+}
+
 /// A reproducible stream of numbers in [−1, 1] (splitmix64).
 struct Random(u64);
 
@@ -238,11 +247,7 @@ fn main() {
                     let (slow, fast) = PUBLISHED[index][column];
                     println!(
                         "{n:>5} {k:>3} {m:>4} {:<7} {:>10.3} {:>9.2} {:>9.2} {:>6.1}× {:>8.1}×   {:>8.1e} {:>8.1e} {:>8.1e}",
-                        if below == Below::Full {
-                            "full"
-                        } else {
-                            "sparse"
-                        },
+                        below.name(),
                         1e3 * r.seconds,
                         1e3 * dense[0].seconds,
                         1e3 * dense[1].seconds,
@@ -265,24 +270,17 @@ fn main() {
     );
     for (n, published, ratios) in &means {
         let mean = |below: usize, k: usize| {
-            let of: Vec<f64> = ratios[below]
-                .iter()
-                .filter(|r| r.0 == k)
-                .map(|r| r.1)
-                .collect();
-            of.iter().sum::<f64>() / of.len() as f64
+            let of = ratios[below].iter().filter(|r| r.0 == k);
+            of.clone().map(|r| r.1).sum::<f64>() / of.count() as f64
         };
         let cells = |below: usize| {
             KEYS.iter()
                 .map(|&k| format!("{:>8.1}×", mean(below, k)))
                 .collect::<String>()
         };
-        let met = |below: usize| {
-            if mean(below, 2) >= *published {
-                "met"
-            } else {
-                "MISSED"
-            }
+        let met = |below: usize| match mean(below, 2) >= *published {
+            true => "met",
+            false => "MISSED",
         };
         println!(
             "{n:>5} {published:>8.1}×   {} {:<6} {} {:<6}",
@@ -298,27 +296,17 @@ fn main() {
     );
     for below in [Below::Sparse, Below::Full] {
         for m in BLOCKS {
+            let own = growth.iter().filter(|g| g.0 == below && g.3 == m);
             let in_n = KEYS.map(|k| {
-                let of: Vec<(f64, f64)> = growth
-                    .iter()
-                    .filter(|g| g.0 == below && g.2 == k && g.3 == m)
-                    .map(|g| (g.1 as f64, g.4))
-                    .collect();
-                exponent(&of)
+                let of = own.clone().filter(|g| g.2 == k);
+                exponent(&of.map(|g| (g.1 as f64, g.4)).collect::<Vec<_>>())
             });
             let last = sizes[sizes.len() - 1].0;
-            let of: Vec<(f64, f64)> = growth
-                .iter()
-                .filter(|g| g.0 == below && g.1 == last && g.3 == m)
-                .map(|g| (g.2 as f64, g.4))
-                .collect();
+            let of = own.filter(|g| g.1 == last);
+            let of: Vec<(f64, f64)> = of.map(|g| (g.2 as f64, g.4)).collect();
             println!(
                 "  {:<6} m = {m:>3}: n^{:.2}, n^{:.2}, n^{:.2}; k^{:.2}",
-                if below == Below::Full {
-                    "full"
-                } else {
-                    "sparse"
-                },
+                below.name(),
                 in_n[0],
                 in_n[1],
                 in_n[2],

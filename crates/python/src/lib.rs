@@ -17,6 +17,7 @@ use std::fs::{self, File};
 use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
+use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 use work::{call, interruptible};
 
@@ -37,6 +38,14 @@ fn unwritten(path: &Path, error: &std::io::Error) -> PyErr {
 
 fn parse(text: &str, name: &str) -> PyResult<Problem> {
     Problem::parse(text, name).map_err(bad)
+}
+
+/// A run that a flag ends.
+fn until(cancel: &AtomicBool) -> Control<'_> {
+    Control {
+        cancel: Some(cancel),
+        ..Control::default()
+    }
 }
 
 fn space(name: Option<&str>) -> PyResult<Option<Space>> {
@@ -95,10 +104,9 @@ fn solve(
     let work = |cancel: &_| -> PyResult<String> {
         let mut show = |now: Progress| call(&progress, (now.steps, now.t, now.solutions));
         let mut control = Control {
-            cancel: Some(cancel),
             progress: progress.is_some().then_some(&mut show),
             witness: proof.as_mut().map(|writer| writer as &mut dyn Witness),
-            ..Control::default()
+            ..until(cancel)
         };
         let outcome = match chosen {
             Some(_) => track::solve(&problem, &options, &mut control),
@@ -107,19 +115,13 @@ fn solve(
         let outcome = outcome.map_err(bad)?;
         let mut trace = None;
         if samples > 0 && !matches!(outcome.status, Status::Stopped(_)) {
-            let mut control = Control {
-                cancel: Some(cancel),
-                ..Control::default()
-            };
+            let mut control = until(cancel);
             trace = track::trace_path(&problem, &options, &mut control).ok();
         }
         let run = report::Run {
-            problem: &problem,
-            options: &options,
-            outcome: &outcome,
             trace: trace.as_ref().map(|(_, trace)| trace),
             samples,
-            tested: None,
+            ..report::Run::new(&problem, &options, &outcome)
         };
         Ok(run.to_json())
     };
@@ -181,10 +183,7 @@ fn motion(
 ) -> PyResult<String> {
     let problem = Problem::parse_loosely(text, name).map_err(bad)?;
     let found = interruptible(py, |cancel: &_| {
-        let mut control = Control {
-            cancel: Some(cancel),
-            ..Control::default()
-        };
+        let mut control = until(cancel);
         Motion::of(
             &problem,
             &free,
@@ -254,10 +253,7 @@ impl Session {
     fn new(py: Python<'_>, text: &str, name: &str, to_drag: bool) -> PyResult<Self> {
         let problem = Problem::parse_loosely(text, name).map_err(bad)?;
         let opened = interruptible(py, |cancel: &_| {
-            let mut control = Control {
-                cancel: Some(cancel),
-                ..Control::default()
-            };
+            let mut control = until(cancel);
             match to_drag {
                 true => edit::Session::open_to_drag(&problem, &Options::certified(), &mut control),
                 false => edit::Session::open_with(&problem, &Options::certified(), &mut control),
@@ -276,10 +272,7 @@ impl Session {
                 .collect::<Result<Vec<_>, _>>()
                 .map_err(bad)?;
             edit::Setting::check(session.problem(), &settings).map_err(bad)?;
-            let mut control = Control {
-                cancel: Some(cancel),
-                ..Control::default()
-            };
+            let mut control = until(cancel);
             let edited = session.edit_with(&settings, &mut control);
             Ok(edit_to_json(session.problem(), &edited, session.moved()))
         })?;
@@ -299,10 +292,7 @@ impl Session {
                 .iter()
                 .map(|text| edit::Drag::parse(session.problem(), text));
             let drags = drags.collect::<Result<Vec<_>, _>>().map_err(bad)?;
-            let mut control = Control {
-                cancel: Some(cancel),
-                ..Control::default()
-            };
+            let mut control = until(cancel);
             let edited = session.drag(&drags, &mut control);
             Ok(edit_to_json(session.problem(), &edited, session.moved()))
         })?

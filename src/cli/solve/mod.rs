@@ -11,7 +11,7 @@ use super::measured::Measured;
 use super::output::{self, Beside, Destination, number};
 use super::pictures::Pictures;
 use super::take::Take;
-use super::{BAD_INPUT, input, interrupt};
+use super::{BAD_INPUT, CLOSED, input, interrupt};
 use asked::Asked;
 use clap::ValueEnum;
 use krawl::track::{self, Options};
@@ -264,11 +264,7 @@ impl Arguments {
 }
 
 /// Runs the verb and returns the exit code.
-pub fn run(arguments: &Arguments) -> u8 {
-    output::exit_code(try_run(arguments))
-}
-
-fn try_run(arguments: &Arguments) -> Result<u8, String> {
+pub fn run(arguments: &Arguments) -> Result<u8, String> {
     arguments.time.begin();
     arguments.check()?;
     // Whatever is wrong is said before anything runs.
@@ -285,7 +281,16 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         return Err("only one result can go to standard output".to_owned());
     }
     let silent = arguments.quiet || standard || pictures.use_standard_output();
-    let mut told = Told::new(arguments, (json.is_some(), pictures, cert), silent);
+    let mut told = Told {
+        arguments,
+        has_json: json.is_some(),
+        pictures,
+        cert,
+        silent,
+        lines: String::new(),
+        written: true,
+        worst: CLOSED,
+    };
     for (k, (asked, file)) in problems.iter().zip(&arguments.files).enumerate() {
         if told.answer(k, asked, file)? {
             break;

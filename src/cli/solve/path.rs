@@ -82,16 +82,11 @@ pub(super) fn follow_first(
             turns_at: None,
         });
     }
-    let line = ProgressLine::new(!arguments.quiet, which);
-    let mut show = |now: Progress| line.show(now);
-    let mut control = Control {
-        progress: Some(&mut show),
-        ..interrupt::control()
-    };
     let options = arguments.options();
     let space = arguments.space.map(|_| options.space);
-    let found = track::first(problem, space, &options, &mut control);
-    line.clear();
+    let found = interrupt::shown(!arguments.quiet, which, |control| {
+        track::first(problem, space, &options, control)
+    });
     found.map_err(|error| format!("{name}: {error}"))
 }
 
@@ -103,14 +98,10 @@ pub(super) fn follow_finely(
     which: &str,
     outcome: &mut Outcome,
 ) -> Option<Trace> {
-    let line = ProgressLine::new(!arguments.quiet, format!("{which} picture").trim_start());
-    let mut show = |now: Progress| line.show(now);
-    let mut control = Control {
-        progress: Some(&mut show),
-        ..interrupt::control()
-    };
-    let traced = track::trace_path(problem, &arguments.options(), &mut control);
-    line.clear();
+    let what = format!("{which} picture");
+    let traced = interrupt::shown(!arguments.quiet, what.trim_start(), |control| {
+        track::trace_path(problem, &arguments.options(), control)
+    });
     let (mut finer, trace) = traced.ok()?;
     Signs::of(problem).test(&mut finer, problem.dimension);
     let kind = |outcome: &Outcome| std::mem::discriminant(&outcome.status);

@@ -27,11 +27,11 @@ use std::time::{Duration, Instant};
 
 /// Where results go, and what came of all files so far.
 pub(super) struct Told<'a> {
-    arguments: &'a Arguments,
-    has_json: bool,
-    pictures: Places<'a>,
-    cert: Option<Beside>,
-    silent: bool,
+    pub arguments: &'a Arguments,
+    pub has_json: bool,
+    pub pictures: Places<'a>,
+    pub cert: Option<Beside>,
+    pub silent: bool,
     /// Results as JSON, a line for each.
     pub lines: String,
     /// Whether all could be written.
@@ -49,24 +49,7 @@ pub(super) fn worse(one: u8, other: u8) -> u8 {
     }
 }
 
-impl<'a> Told<'a> {
-    pub fn new(
-        arguments: &'a Arguments,
-        (has_json, pictures, cert): (bool, Places<'a>, Option<Beside>),
-        silent: bool,
-    ) -> Self {
-        Told {
-            arguments,
-            has_json,
-            pictures,
-            cert,
-            silent,
-            lines: String::new(),
-            written: true,
-            worst: CLOSED,
-        }
-    }
-
+impl Told<'_> {
     /// Answers what is asked of the file of a number. Whether the rest is not wanted any more.
     pub fn answer(&mut self, k: usize, asked: &Asked, file: &Path) -> Result<bool, String> {
         let (arguments, problem) = (self.arguments, &asked.problem);

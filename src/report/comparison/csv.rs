@@ -1,33 +1,45 @@
 //! Comparisons for spreadsheets.
 
-use super::{Compared, faults, status, switched_on, verdict};
+use super::json::{RowEntry, entry};
+use super::{Compared, faults};
 use crate::compare::Row;
 
+/// A column: its name, and what stands in it for a row of a comparison.
+type Column = (&'static str, fn(&Compared, &Row, &RowEntry) -> String);
+
 /// The columns.
-const HEADING: [&str; 23] = [
-    "problem",
-    "mode",
-    "space",
-    "setting",
-    "value",
-    "relative",
-    "status",
-    "verdict",
-    "faults",
-    "steps",
-    "rejected",
-    "runs",
-    "seconds",
-    "ratio",
-    "solutions",
-    "widest",
-    "narrowest",
-    "residual",
-    "length",
-    "switched_on",
-    "published_steps",
-    "published_seconds",
-    "published_solutions",
+const COLUMNS: [Column; 23] = [
+    ("problem", |of, _, _| of.comparison.problem.clone()),
+    ("mode", |_, _, row| row.mode.into()),
+    ("space", |_, _, row| row.space.into()),
+    ("setting", |_, _, row| text(row.setting)),
+    ("value", |_, _, row| float(row.value)),
+    ("relative", |_, _, row| float(row.relative)),
+    ("status", |_, _, row| row.status.into()),
+    ("verdict", |_, _, row| row.verdict.into()),
+    ("faults", |_, row, _| faults(&row.verdict)),
+    ("steps", |_, _, row| text(row.steps)),
+    ("rejected", |_, _, row| text(row.rejected)),
+    ("runs", |_, row, _| {
+        text(row.measured().map(|m| m.seconds.len()))
+    }),
+    ("seconds", |_, _, row| float(row.seconds)),
+    ("ratio", |_, _, row| float(row.ratio)),
+    ("solutions", |_, _, row| text(row.solutions)),
+    ("widest", |_, _, row| float(row.widest)),
+    ("narrowest", |_, _, row| float(row.narrowest)),
+    ("residual", |_, _, row| float(row.residual)),
+    ("length", |_, _, row| float(row.length)),
+    ("switched_on", |_, _, row| row.switched_on.join("; ")),
+    ("published_steps", |of, row, _| {
+        text(of.beside(row).and_then(|p| p.steps))
+    }),
+    ("published_seconds", |of, row, _| {
+        float(of.beside(row).and_then(|p| p.seconds))
+    }),
+    ("published_solutions", |of, row, _| {
+        text(of.beside(row).and_then(|p| p.solutions))
+    }),
 ];
 
 /// One line per row of each comparison, those of the sweeps after the others, below a heading. The
@@ -39,9 +51,12 @@ pub fn comparisons_to_csv(compared: &[Compared]) -> String {
     let lines = compared.iter().flat_map(|compared| {
         let comparison = &compared.comparison;
         let rows = comparison.rows.iter().chain(&comparison.sweep);
-        rows.map(move |row| line(compared, row))
+        rows.map(move |row| {
+            let entry = entry(compared, row);
+            COLUMNS.map(|(_, cell)| cell(compared, row, &entry))
+        })
     });
-    let heading = HEADING.map(str::to_owned);
+    let heading = COLUMNS.map(|(name, _)| name.to_owned());
     for record in std::iter::once(heading).chain(lines) {
         writer
             .write_record(record)
@@ -51,38 +66,10 @@ pub fn comparisons_to_csv(compared: &[Compared]) -> String {
     String::from_utf8(bytes).expect("all of it was text")
 }
 
-fn line(compared: &Compared, row: &Row) -> [String; 23] {
-    fn text<T: ToString>(x: Option<T>) -> String {
-        x.map_or(String::new(), |x| x.to_string())
-    }
-    let float = |x: Option<f64>| text(x.filter(|x| x.is_finite()).map(|x| format!("{x:e}")));
-    let measured = row.measured();
-    let outcome = measured.map(|m| &m.outcome);
-    let widths = measured.and_then(|m| m.widths());
-    let published = compared.beside(row);
-    [
-        compared.comparison.problem.clone(),
-        row.way.method.name().into(),
-        row.way.space.name().into(),
-        text(row.setting.map(|s| s.knob.name())),
-        float(row.setting.map(|s| s.value)),
-        float(row.setting.map(|s| s.relative)),
-        status(row).0.into(),
-        verdict(&row.verdict).into(),
-        faults(&row.verdict),
-        text(outcome.map(|o| o.steps)),
-        text(outcome.map(|o| o.rejected)),
-        text(measured.map(|m| m.seconds.len())),
-        float(measured.map(|m| m.median)),
-        float(measured.and_then(|m| compared.ratio(m))),
-        text(outcome.map(|o| o.solutions.len())),
-        float(widths.map(|w| w.0)),
-        float(widths.map(|w| w.1)),
-        float(measured.and_then(|m| m.residual)),
-        float(outcome.map(|o| o.length)),
-        switched_on(row).join("; "),
-        text(published.and_then(|p| p.steps)),
-        float(published.and_then(|p| p.seconds)),
-        text(published.and_then(|p| p.solutions)),
-    ]
+fn text<T: ToString>(x: Option<T>) -> String {
+    x.map_or(String::new(), |x| x.to_string())
+}
+
+fn float(x: Option<f64>) -> String {
+    text(x.filter(|x| x.is_finite()).map(|x| format!("{x:e}")))
 }

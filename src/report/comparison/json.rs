@@ -3,7 +3,7 @@
 use super::{Compared, status, switched_on, verdict};
 use crate::compare::{Fault, Row, Verdict};
 use crate::problem::Published;
-use crate::report::JSON_VERSION;
+use crate::report::json::{JSON_VERSION, text};
 use crate::track::StopKind;
 use serde::Serialize;
 
@@ -34,7 +34,7 @@ pub fn comparisons_to_json(compared: &[Compared]) -> String {
         program: concat!("krawl ", env!("CARGO_PKG_VERSION")),
         problems: compared.iter().map(problem).collect(),
     };
-    serde_json::to_string(&document).expect("strings, numbers and lists have a form in JSON")
+    text(&document)
 }
 
 #[derive(Serialize)]
@@ -58,27 +58,27 @@ struct ProblemEntry<'a> {
 }
 
 #[derive(Serialize)]
-struct RowEntry<'a> {
-    mode: &'static str,
-    space: &'static str,
-    setting: Option<&'static str>,
-    value: Option<f64>,
-    relative: Option<f64>,
-    status: &'static str,
-    reason: Option<&'a str>,
-    stopped_kind: Option<&'static str>,
-    steps: Option<usize>,
-    rejected: Option<usize>,
-    runs: &'a [f64],
-    seconds: Option<f64>,
-    ratio: Option<f64>,
-    solutions: Option<usize>,
-    widest: Option<f64>,
-    narrowest: Option<f64>,
-    residual: Option<f64>,
-    length: Option<f64>,
-    switched_on: &'a [String],
-    verdict: &'static str,
+pub(super) struct RowEntry<'a> {
+    pub mode: &'static str,
+    pub space: &'static str,
+    pub setting: Option<&'static str>,
+    pub value: Option<f64>,
+    pub relative: Option<f64>,
+    pub status: &'static str,
+    pub reason: Option<&'a str>,
+    pub stopped_kind: Option<&'static str>,
+    pub steps: Option<usize>,
+    pub rejected: Option<usize>,
+    pub runs: &'a [f64],
+    pub seconds: Option<f64>,
+    pub ratio: Option<f64>,
+    pub solutions: Option<usize>,
+    pub widest: Option<f64>,
+    pub narrowest: Option<f64>,
+    pub residual: Option<f64>,
+    pub length: Option<f64>,
+    pub switched_on: &'a [String],
+    pub verdict: &'static str,
     faults: Vec<FaultEntry>,
     published: Option<PublishedEntry<'a>>,
 }
@@ -119,7 +119,7 @@ fn problem(compared: &Compared) -> ProblemEntry<'_> {
     }
 }
 
-fn entry<'a>(compared: &'a Compared, row: &'a Row) -> RowEntry<'a> {
+pub(super) fn entry<'a>(compared: &'a Compared, row: &'a Row) -> RowEntry<'a> {
     let measured = row.measured();
     let outcome = measured.map(|m| &m.outcome);
     let (status, reason, kind) = status(row);

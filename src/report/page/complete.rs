@@ -18,11 +18,10 @@ pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
             ..reader.figure(&solution["points"], &Value::Null, "solutions")?
         });
     }
-    let (badge, tone) = match text(result, "status")? {
+    page.rate(match text(result, "status")? {
         "complete" => ("proved · all there are", Tone::Proved),
         _ => ("proved in part", Tone::Stopped),
-    };
-    (page.badge, page.tone) = (badge.into(), tone);
+    });
     page.verdict = text(result, "verdict")?.to_owned();
     let searched = match result["method"].as_str() {
         Some("coordinates") => {

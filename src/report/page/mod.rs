@@ -208,6 +208,11 @@ pub struct Mark {
 }
 
 impl Page {
+    /// Says what the answer is worth.
+    fn rate(&mut self, (badge, tone): (&str, Tone)) {
+        (self.badge, self.tone) = (badge.into(), tone);
+    }
+
     /// The page, as the text of one file.
     ///
     /// # Panics

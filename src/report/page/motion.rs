@@ -8,12 +8,11 @@ use serde_json::Value;
 pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
     let result = reader.result;
     let mut page = reader.page("In the file", "as it is drawn")?;
-    let (badge, tone) = match text(result, "status")? {
+    page.rate(match text(result, "status")? {
         "closed" => ("proved · a loop", Tone::Proved),
         "open" => ("proved · between two ends", Tone::Proved),
         _ => ("proved in part", Tone::Stopped),
-    };
-    (page.badge, page.tone) = (badge.into(), tone);
+    });
     page.verdict = reader.words()?;
     let names = list(result, "driver")?.iter().map(|name| {
         let name = name.as_str()?;

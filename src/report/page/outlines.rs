@@ -49,11 +49,6 @@ pub(super) fn plane(figure: &[f64], point: [f64; 3], normal: [f64; 3]) -> Vec<f6
         .collect()
 }
 
-/// The vector from one place to another.
-pub(super) fn from(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    array(|k| b[k] - a[k])
-}
-
 /// A vector made 1 long; `None` if it has no direction.
 pub(super) fn unit(v: [f64; 3]) -> Option<[f64; 3]> {
     let long = length(v);

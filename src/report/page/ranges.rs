@@ -62,11 +62,10 @@ pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
             format!("is {}; from {}", digits(value), values.join(" to ")),
         ));
     }
-    let (badge, tone) = match all {
+    page.rate(match all {
         true => ("proved", Tone::Proved),
         false => ("proved in part", Tone::Stopped),
-    };
-    (page.badge, page.tone) = (badge.into(), tone);
+    });
     page.text = vec![Text::Paragraph(
         "Each dimension was moved alone, both ways, with proof: between the figure of the file and a limit there is \
          exactly one figure for every value, and beyond the limit it has no continuation. At a limit the figure can \

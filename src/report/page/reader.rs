@@ -2,10 +2,12 @@
 
 use super::{Bar, Figure, Label, Page, Shape, outlines};
 use crate::interval::hull;
-use crate::interval::vector::cross;
+use crate::interval::vector::{cross, minus};
 use crate::places::array;
 use crate::report::certain_digits;
 use crate::report::columns::DIGITS;
+use crate::report::drawing::{Constraint, Object};
+use crate::report::figures::chosen_in_words;
 use serde::Deserialize;
 use serde_json::{Value, json};
 
@@ -58,15 +60,12 @@ pub(super) fn circles(radii: &Value) -> Value {
 /// `block 1 solution 1, block 2 solution 3 mirrored`.
 pub(super) fn choices(choices: &Value) -> Option<String> {
     let each = choices.as_array()?.iter().map(|choice| {
-        let mirrored = match choice["mirrored"].as_bool() {
-            Some(true) => " mirrored",
-            _ => "",
-        };
-        let (block, solution) = (choice["block"].as_u64()?, choice["solution"].as_u64()?);
-        let (block, solution) = (block + 1, solution + 1);
-        Some(format!("block {block} solution {solution}{mirrored}"))
+        let number = |key: &str| Some(choice[key].as_u64()? as usize);
+        let is_mirrored = choice["mirrored"].as_bool() == Some(true);
+        Some((number("block")?, number("solution")?, is_mirrored))
     });
-    Some(each.collect::<Option<Vec<_>>>()?.join(", "))
+    let each = each.collect::<Option<Vec<_>>>()?;
+    Some(chosen_in_words(each.into_iter()))
 }
 
 /// What stands under a key, in the form that is wanted.
@@ -141,23 +140,6 @@ pub(super) struct Reader<'a> {
     objects: Vec<Object<'a>>,
     origin: [f64; 3],
     axes: [[f64; 3]; 3],
-}
-
-/// A constraint, as results have it.
-#[derive(Deserialize)]
-struct Constraint<'a> {
-    kind: &'a str,
-    items: Vec<&'a str>,
-    name: Option<&'a str>,
-    value: Option<&'a str>,
-}
-
-/// An object, as results have it: the points that it goes through.
-#[derive(Deserialize)]
-struct Object<'a> {
-    name: &'a str,
-    kind: &'a str,
-    points: Vec<&'a str>,
 }
 
 impl<'a> Reader<'a> {
@@ -291,7 +273,7 @@ impl<'a> Reader<'a> {
     /// The ends of a dimension's bar, where it has one.
     pub fn ends_of(&self, name: &str) -> Option<[usize; 2]> {
         let mut all = self.constraints.iter();
-        let constraint = all.find(|constraint| constraint.name == Some(name))?;
+        let constraint = all.find(|constraint| constraint.name.as_deref() == Some(name))?;
         let is_distance = constraint.kind.ends_with("distance");
         let ends = is_distance.then(|| self.numbers(&constraint.items));
         ends??.try_into().ok()
@@ -300,8 +282,9 @@ impl<'a> Reader<'a> {
     fn bars(&self) -> Result<Vec<Bar>, ShowError> {
         let mut bars = Vec::new();
         for constraint in &self.constraints {
-            let target = constraint.value.and_then(|value| value.parse::<f64>().ok());
-            let (label, target) = match (constraint.kind, constraint.value) {
+            let value = constraint.value.as_deref();
+            let target = value.and_then(|value| value.parse::<f64>().ok());
+            let (label, target) = match (constraint.kind, value) {
                 ("distance", Some(value)) => (shown(value), target),
                 ("squared distance", Some(value)) => {
                     (format!("√{}", shown(value)), target.map(f64::sqrt))
@@ -374,7 +357,7 @@ impl<'a> Reader<'a> {
         let mut labels = Vec::new();
         for constraint in &self.constraints {
             let (kind, items) = (constraint.kind, &constraint.items);
-            let Some(value) = constraint.value else {
+            let Some(value) = constraint.value.as_deref() else {
                 continue;
             };
             let worded = |value: &str| match kind {
@@ -392,7 +375,7 @@ impl<'a> Reader<'a> {
                 continue;
             }
             let before = worded(&shown(value));
-            let (text, was) = match constraint.name.and_then(&now) {
+            let (text, was) = match constraint.name.as_deref().and_then(&now) {
                 Some(now) => (worded(&now), Some(before)),
                 None => (before, None),
             };
@@ -443,14 +426,12 @@ impl<'a> Reader<'a> {
                 ("line", _) if !at.is_null() => {
                     outlines::line(points, there(place("point")?), turn(place("direction")?))
                 }
-                ("line", &[a, b]) => {
-                    outlines::line(points, a, outlines::unit(outlines::from(a, b))?)
-                }
+                ("line", &[a, b]) => outlines::line(points, a, outlines::unit(minus(b, a))?),
                 ("plane", _) if !at.is_null() => {
                     outlines::plane(points, there(place("point")?), turn(place("normal")?))
                 }
                 ("plane", &[a, b, c]) => {
-                    let normal = cross(outlines::from(a, b), outlines::from(a, c));
+                    let normal = cross(minus(b, a), minus(c, a));
                     outlines::plane(points, a, outlines::unit(normal)?)
                 }
                 ("circle" | "sphere", &[center]) => {

@@ -10,7 +10,7 @@ pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
     let mode = text(result, "mode")?;
     let closed = text(result, "status")? == "closed";
     let open = text(result, "status")? == "open";
-    let (badge, tone) = match (mode, closed) {
+    page.rate(match (mode, closed) {
         ("certified", false) if open => ("proved · between the ends of the path", Tone::Proved),
         ("certified", true) => ("proved · complete for this path", Tone::Proved),
         (_, true) => ("observed, not proved", Tone::Observed),
@@ -19,8 +19,7 @@ pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
             Tone::Observed,
         ),
         (_, false) => ("stopped", Tone::Stopped),
-    };
-    (page.badge, page.tone) = (badge.into(), tone);
+    });
     page.verdict = text(result, "verdict")?.to_owned();
     page.paths.extend(path::read(reader, result)?);
     let sketch = &mut page.figures[0];

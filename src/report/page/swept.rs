@@ -9,12 +9,11 @@ pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
     let mut page = reader.page("In the file", "the figure that the sweep sets out from")?;
     let name = text(result, "dimension")?;
     let status = text(result, "status")?;
-    let (badge, tone) = match status {
+    page.rate(match status {
         "reached" => ("proved", Tone::Proved),
         "limit" => ("proved · up to the limit", Tone::Proved),
         _ => ("proved in part", Tone::Stopped),
-    };
-    (page.badge, page.tone) = (badge.into(), tone);
+    });
     page.verdict = reader.words()?;
     // The dimension that is driven has no one length.
     let ends = reader.ends_of(name);

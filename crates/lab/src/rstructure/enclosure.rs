@@ -40,11 +40,6 @@ impl Enclosure {
         Ok(Enclosure { floats, intervals })
     }
 
-    /// The matrix.
-    pub fn matrix(&self) -> &RMatrix<f64> {
-        self.floats.matrix()
-    }
-
     /// A box that holds the solution for every right-hand side in the box given. Order as in
     /// [`Factors::solve`]. Unbounded where floats overflow on the way.
     pub fn solve(&mut self, right_side: &[Interval]) -> Vec<Interval> {

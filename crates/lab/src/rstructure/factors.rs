@@ -2,7 +2,7 @@
 
 use super::kernel;
 use super::scalar::Subtract;
-use super::structure::{Block, Structure};
+use super::structure::{Block, C, DIAGONAL, H, L, LEFT, Structure};
 use super::{RMatrix, Scalar};
 use krawl::linalg::LANE;
 use krawl::linalg::rstructure::{Blocks, Elimination, Lane, MAX_KEYS, Row, Solves, add, zeros};
@@ -170,7 +170,7 @@ impl<T: Scalar> Diagonal<T> {
     /// Factors the diagonal blocks.
     fn factor(&mut self, matrix: &RMatrix<T>) -> Result<(), Singular> {
         let structure = &*matrix.structure;
-        self.factors.clone_from(&matrix.diagonal);
+        self.factors.clone_from(&matrix.parts[DIAGONAL]);
         self.inverses.resize(structure.order, T::zero());
         self.swaps.resize(structure.order, 0);
         for (index, block) in structure.blocks.iter().enumerate() {
@@ -208,10 +208,36 @@ impl<T: Scalar> Whole<'_, T> {
         &self.matrix.structure
     }
 
+    /// Solves A's equations block by block, for rows that begin as `begin` sets them: that of a block with this number in it.
+    #[inline(always)]
+    fn through_blocks<const W: usize>(
+        &self,
+        rows: &mut [Row<W, T>],
+        begin: impl Fn(&Block, usize, &mut Row<W, T>),
+    ) {
+        let keys = self.structure().keys;
+        for block in &self.structure().blocks {
+            let (done, own) = rows.split_at_mut(keys + block.start);
+            let own = &mut own[..block.size];
+            for (r, row) in own.iter_mut().enumerate() {
+                begin(block, r, row);
+            }
+            for (first, width, range) in block.tiles() {
+                let panel = self.matrix.parts[LEFT][range].as_flattened();
+                let done = block.columns.iter().map(|&c| &done[keys + c as usize]);
+                let from = first * LANE;
+                let to = block.size.min(from + width * LANE);
+                kernel::reduce_rows(panel, width * LANE, done, &mut own[from..to]);
+            }
+            let (factors, pivots) = self.diagonal.of(block);
+            kernel::solve_rows(factors, block.lanes, pivots, own);
+        }
+    }
+
     /// A row of L.
     fn row_of_l(&self, at: usize) -> &[Lane<T>] {
         let lanes = self.structure().lanes;
-        &self.matrix.l[at * lanes..(at + 1) * lanes]
+        &self.matrix.parts[L][at * lanes..(at + 1) * lanes]
     }
 }
 
@@ -230,29 +256,16 @@ impl<T: Scalar> Blocks<T> for Whole<'_, T> {
 
     fn substitute<const W: usize>(&self, rows: &mut [Row<W, T>]) {
         let (keys, lanes) = (self.keys(), self.structure().lanes);
-        for block in &self.structure().blocks {
-            let (done, own) = rows.split_at_mut(keys + block.start);
-            let own = &mut own[..block.size];
-            for (r, row) in own.iter_mut().enumerate() {
-                let row = row.as_flattened_mut();
-                for (key, x) in row[..keys].iter_mut().enumerate() {
-                    let h = &self.matrix.h[key * lanes + block.at..].as_flattened()[r];
-                    *x = h.negated();
-                }
-                if let Some(right) = self.right {
-                    row[keys] = right[block.start + r];
-                }
+        self.through_blocks(rows, |block, r, row| {
+            let row = row.as_flattened_mut();
+            for (key, x) in row[..keys].iter_mut().enumerate() {
+                let h = &self.matrix.parts[H][key * lanes + block.at..].as_flattened()[r];
+                *x = h.negated();
             }
-            for (first, width, range) in block.tiles() {
-                let panel = self.matrix.left[range].as_flattened();
-                let done = block.columns.iter().map(|&c| &done[keys + c as usize]);
-                let from = first * LANE;
-                let to = block.size.min(from + width * LANE);
-                kernel::reduce_rows(panel, width * LANE, done, &mut own[from..to]);
+            if let Some(right) = self.right {
+                row[keys] = right[block.start + r];
             }
-            let (factors, pivots) = self.diagonal.of(block);
-            kernel::solve_rows(factors, block.lanes, pivots, own);
-        }
+        });
     }
 
     fn ignored_row<const W: usize>(&self, at: usize, rows: &[Row<W, T>]) -> Row<W, T> {
@@ -273,7 +286,7 @@ impl<T: Scalar> Blocks<T> for Whole<'_, T> {
             add(&mut sum, T::one(), rest);
         }
         let flat = sum.as_flattened_mut();
-        let c = self.matrix.c.as_flattened();
+        let c = self.matrix.parts[C].as_flattened();
         for (key, x) in flat[..keys].iter_mut().enumerate() {
             *x = x.plus(c[key * structure.key_lanes() * LANE + at]);
         }
@@ -286,22 +299,11 @@ impl<T: Scalar> Blocks<T> for Whole<'_, T> {
 
 impl<T: Scalar> Solves<T> for Whole<'_, T> {
     fn substitute_one(&self, f: &[T], x: &mut [T]) {
-        let structure = self.structure();
-        let mut vector = vec![[T::zero(); LANE]; structure.lanes];
-        for block in &structure.blocks {
-            let (start, size) = (block.start, block.size);
-            let own = vector[block.at..].as_flattened_mut();
-            own[..size].copy_from_slice(&f[start..][..size]);
-            let group = &mut [&mut vector[..]];
-            for (first, width, range) in block.tiles() {
-                let positions = block.positions.iter().map(|&position| position as usize);
-                let panel = &self.matrix.left[range];
-                kernel::reduce(panel, width, width, positions, group, block.at + first);
-            }
-            let (factors, pivots) = self.diagonal.of(block);
-            kernel::solve(factors, block.lanes, pivots, group, block.at);
-            let own = vector[block.at..].as_flattened();
-            x[structure.keys + start..][..size].copy_from_slice(&own[..size]);
+        let mut rows = vec![zeros::<1, T>(); x.len()];
+        self.through_blocks(&mut rows, |block, r, row| row[0][0] = f[block.start + r]);
+        let keys = self.keys();
+        for (x, row) in x[keys..].iter_mut().zip(&rows[keys..]) {
+            *x = row[0][0];
         }
     }
 

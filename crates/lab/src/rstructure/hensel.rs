@@ -143,13 +143,7 @@ pub fn residue(x: &Rational, p: u64) -> Option<BigInt> {
 /// A fraction modulo a power of p, if p does not divide its denominator.
 pub fn residue_of_power(x: &Rational, p: u64, power: u32) -> Option<BigInt> {
     let modulus = BigInt::from(p).pow(power);
-    let (mut r, mut next) = (modulus.clone(), modulo(x.denom(), &modulus));
-    let (mut s, mut s_next) = (BigInt::zero(), BigInt::one());
-    while !next.is_zero() {
-        let q = &r / &next;
-        (r, next) = (next.clone(), r - &q * next);
-        (s, s_next) = (s_next.clone(), s - q * s_next);
-    }
+    let ([r, _], [s, _]) = euclid(x.denom(), &modulus, &BigInt::zero());
     r.is_one().then(|| modulo(&(x.numer() * s), &modulus))
 }
 
@@ -157,19 +151,26 @@ pub fn residue_of_power(x: &Rational, p: u64, power: u32) -> Option<BigInt> {
 /// reconstruction; Knuth, The Art of Computer Programming 2, 4.5.3, exercise 51).
 pub fn fraction(x: &BigInt, m: &BigInt) -> Option<Rational> {
     let bound = (m / BigInt::from(2)).sqrt();
-    let (mut r, mut next) = (m.clone(), modulo(x, m));
-    let (mut s, mut s_next) = (BigInt::zero(), BigInt::one());
-    while next > bound {
-        let q = &r / &next;
-        (r, next) = (next.clone(), r - &q * next);
-        (s, s_next) = (s_next.clone(), s - q * s_next);
-    }
+    let ([_, next], [_, s_next]) = euclid(x, m, &bound);
     if s_next.is_zero() || s_next.abs() > bound {
         return None;
     }
     let found = Rational::new(next, s_next.clone());
     // In lowest terms already, or it is not congruent to x.
     (found.denom() == &s_next.abs()).then_some(found)
+}
+
+/// Euclid's algorithm for x modulo m, up to the first remainder that is no more than `least`: that and the one before, and what x is multiplied
+/// with to come to each modulo m, the one before first.
+fn euclid(x: &BigInt, m: &BigInt, least: &BigInt) -> ([BigInt; 2], [BigInt; 2]) {
+    let (mut r, mut next) = (m.clone(), modulo(x, m));
+    let (mut s, mut s_next) = (BigInt::zero(), BigInt::one());
+    while next > *least {
+        let q = &r / &next;
+        (r, next) = (next.clone(), r - &q * next);
+        (s, s_next) = (s_next.clone(), s - q * s_next);
+    }
+    ([r, next], [s, s_next])
 }
 
 fn modulo(x: &BigInt, m: &BigInt) -> BigInt {

@@ -12,36 +12,36 @@ use krawl::linalg::rstructure::{Lane, Row};
 /// Lanes in a tile.
 pub(super) const CHUNK: usize = 4;
 /// Columns in a tile: with four lanes, twelve of the sixteen AVX registers.
-pub(super) const GROUP: usize = 3;
+const GROUP: usize = 3;
 // The sizes that `reduce` and `factor` choose from.
 const _: () = assert!(CHUNK == 4 && GROUP == 3);
 
 /// A few columns to work on at a time. All have the same length.
-pub(super) type Group<'a, T, const R: usize> = [&'a mut [Lane<T>]; R];
+type Group<'a, T, const R: usize> = [&'a mut [Lane<T>]; R];
 
 /// Takes the first `R` columns of `lanes` each.
 #[inline(always)]
-pub(super) fn group<T, const R: usize>(data: &mut [Lane<T>], lanes: usize) -> Group<'_, T, R> {
+fn group<T, const R: usize>(data: &mut [Lane<T>], lanes: usize) -> Group<'_, T, R> {
     let mut columns = data.chunks_exact_mut(lanes);
     std::array::from_fn(|_| columns.next().expect("R columns"))
 }
 
-/// `v[at ..] −= Σ_j panel_j v[positions_j]` in a tile of `width` lanes, for every column `v`.
+/// `v[at ..] −= Σ_j panel_j v[j]` in a tile of `width` lanes, for every column `v` and its numbers j before `count`.
 /// Column j of the panel starts at lane `j * stride`.
 #[inline(always)]
-pub(super) fn reduce<T: Scalar, const R: usize>(
+fn reduce<T: Scalar, const R: usize>(
     panel: &[Lane<T>],
     stride: usize,
     width: usize,
-    positions: impl Iterator<Item = usize>,
+    count: usize,
     v: &mut Group<T, R>,
     at: usize,
 ) {
     match width {
-        1 => tile::<T, 1, R>(panel, stride, positions, v, at),
-        2 => tile::<T, 2, R>(panel, stride, positions, v, at),
-        3 => tile::<T, 3, R>(panel, stride, positions, v, at),
-        _ => tile::<T, 4, R>(panel, stride, positions, v, at),
+        1 => tile::<T, 1, R>(panel, stride, count, v, at),
+        2 => tile::<T, 2, R>(panel, stride, count, v, at),
+        3 => tile::<T, 3, R>(panel, stride, count, v, at),
+        _ => tile::<T, 4, R>(panel, stride, count, v, at),
     }
 }
 
@@ -49,16 +49,16 @@ pub(super) fn reduce<T: Scalar, const R: usize>(
 fn tile<T: Scalar, const L: usize, const R: usize>(
     panel: &[Lane<T>],
     stride: usize,
-    positions: impl Iterator<Item = usize>,
+    count: usize,
     v: &mut Group<T, R>,
     at: usize,
 ) {
     let mut sums: [[Lane<T>; L]; R] =
         std::array::from_fn(|r| *v[r][at..].first_chunk().expect("L lanes"));
-    for (column, position) in panel.chunks(stride).zip(positions) {
+    for (j, column) in panel.chunks(stride).take(count).enumerate() {
         let a: &[Lane<T>; L] = column.first_chunk().expect("L lanes");
         for r in 0..R {
-            let x = v[r].as_flattened()[position];
+            let x = v[r].as_flattened()[j];
             for l in 0..L {
                 for q in 0..LANE {
                     sums[r][l][q] = sums[r][l][q].minus_product(a[l][q], x);
@@ -71,88 +71,42 @@ fn tile<T: Scalar, const L: usize, const R: usize>(
     }
 }
 
-/// `v −= column x` in rows `from .. to * LANE`, counted from lane `at` of v.
+/// `v −= column x` in rows `from .. to * LANE`.
 #[inline(always)]
-fn subtract<T: Scalar>(
-    column: &[Lane<T>],
-    x: T,
-    v: &mut [Lane<T>],
-    at: usize,
-    from: usize,
-    to: usize,
-) {
+fn subtract<T: Scalar>(column: &[Lane<T>], x: T, v: &mut [Lane<T>], from: usize, to: usize) {
     let (first, part) = (from / LANE, from % LANE);
     if part > 0 {
         for q in part..LANE {
-            v[at + first][q] = v[at + first][q].minus_product(column[first][q], x);
+            v[first][q] = v[first][q].minus_product(column[first][q], x);
         }
     }
     for l in from.div_ceil(LANE)..to {
         for q in 0..LANE {
-            v[at + l][q] = v[at + l][q].minus_product(column[l][q], x);
+            v[l][q] = v[l][q].minus_product(column[l][q], x);
         }
     }
 }
 
-/// Eliminates with the first `count` columns of a block's unit lower factor in the block that
-/// starts at lane `at` of each column of `v`. Rows beyond `count` are reduced by them.
+/// Eliminates with the first `count` columns of a block's unit lower factor in each column of `v`.
+/// Rows beyond `count` are reduced by them.
 #[inline]
-pub(super) fn forward<T: Scalar, const R: usize>(
+fn forward<T: Scalar, const R: usize>(
     lower: &[Lane<T>],
     lanes: usize,
     count: usize,
     v: &mut Group<T, R>,
-    at: usize,
 ) {
     for chunk in (0..lanes).step_by(CHUNK) {
         let width = CHUNK.min(lanes - chunk);
         let before = count.min(chunk * LANE);
         if before > 0 {
-            let positions = at * LANE..at * LANE + before;
-            reduce(&lower[chunk..], lanes, width, positions, v, at + chunk);
+            reduce(&lower[chunk..], lanes, width, before, v, chunk);
         }
         for k in before..count.min((chunk + width) * LANE) {
             let column = &lower[k * lanes..(k + 1) * lanes];
             for v in v.iter_mut() {
-                let x = v.as_flattened()[at * LANE + k];
-                subtract(column, x, v, at, k + 1, chunk + width);
-            }
-        }
-    }
-}
-
-/// Solves with a block's upper factor of order `t`, of whose diagonal the inverses are given.
-#[inline]
-pub(super) fn backward<T: Scalar, const R: usize>(
-    upper: &[Lane<T>],
-    lanes: usize,
-    inverses: &[T],
-    v: &mut Group<T, R>,
-    at: usize,
-) {
-    let t = inverses.len();
-    for chunk in (0..lanes).step_by(CHUNK).rev() {
-        let width = CHUNK.min(lanes - chunk);
-        let end = t.min((chunk + width) * LANE);
-        if end < t {
-            let positions = at * LANE + end..at * LANE + t;
-            let panel = &upper[end * lanes + chunk..];
-            reduce(panel, lanes, width, positions, v, at + chunk);
-        }
-        for k in (chunk * LANE..end).rev() {
-            let column = &upper[k * lanes..(k + 1) * lanes];
-            let (lane, rest) = (k / LANE, k % LANE);
-            for v in v.iter_mut() {
-                let x = v[at + lane][rest].times(inverses[k]);
-                v[at + lane][rest] = x;
-                for l in chunk..lane {
-                    for q in 0..LANE {
-                        v[at + l][q] = v[at + l][q].minus_product(column[l][q], x);
-                    }
-                }
-                for q in 0..rest {
-                    v[at + lane][q] = v[at + lane][q].minus_product(column[lane][q], x);
-                }
+                let x = v.as_flattened()[k];
+                subtract(column, x, v, k + 1, chunk + width);
             }
         }
     }
@@ -175,9 +129,9 @@ pub(super) fn factor<T: Scalar>(
         let width = GROUP.min(t - from);
         let (done, rest) = block.split_at_mut(from * lanes);
         match width {
-            1 => forward(done, lanes, from, &mut group::<_, 1>(rest, lanes), 0),
-            2 => forward(done, lanes, from, &mut group::<_, 2>(rest, lanes), 0),
-            _ => forward(done, lanes, from, &mut group::<_, 3>(rest, lanes), 0),
+            1 => forward(done, lanes, from, &mut group::<_, 1>(rest, lanes)),
+            2 => forward(done, lanes, from, &mut group::<_, 2>(rest, lanes)),
+            _ => forward(done, lanes, from, &mut group::<_, 3>(rest, lanes)),
         }
         for j in from..from + width {
             let column = &block.as_flattened()[j * lanes * LANE..][..t];
@@ -205,30 +159,11 @@ pub(super) fn factor<T: Scalar>(
             }
             for column in right.chunks_exact_mut(lanes).take(from + width - j - 1) {
                 let x = column.as_flattened()[j];
-                subtract(pivot, x, column, 0, j + 1, lanes);
+                subtract(pivot, x, column, j + 1, lanes);
             }
         }
     }
     Some(())
-}
-
-/// Solves with a factored block, in the block that starts at lane `at` of each column of `v`.
-#[inline]
-pub(super) fn solve<T: Scalar, const R: usize>(
-    block: &[Lane<T>],
-    lanes: usize,
-    (inverses, swaps): (&[T], &[u32]),
-    v: &mut Group<T, R>,
-    at: usize,
-) {
-    for v in v.iter_mut() {
-        let v = &mut v.as_flattened_mut()[at * LANE..];
-        for (row, &other) in swaps.iter().enumerate() {
-            v.swap(row, other as usize);
-        }
-    }
-    forward(block, lanes, inverses.len(), v, at);
-    backward(block, lanes, inverses, v, at);
 }
 
 /// So many rows of W lanes are worked on at a time: eight registers, as many as hide how long a product takes.
@@ -385,15 +320,7 @@ mod tests {
             let mut swaps = vec![0; t];
             factor(&mut block, lanes, &mut inverses, &mut swaps).unwrap();
             let x: Vec<Z> = (0..t).map(|i| Z::new(i as i64 * 5 - 3)).collect();
-            let mut v = vec![[Z::zero(); LANE]; lanes + 1];
-            for i in 0..t {
-                let b = (0..t).fold(Z::zero(), |sum, j| sum.plus(entry(i, j).times(x[j])));
-                v.as_flattened_mut()[LANE + i] = b;
-            }
-            let mut group = [v.as_mut_slice()];
-            solve(&block, lanes, (&inverses, &swaps), &mut group, 1);
-            assert_eq!(&v.as_flattened()[LANE..LANE + t], x, "order {t}");
-            // The same for rows of several right-hand sides, of which two are not zero.
+            // Rows of several right-hand sides, of which two are not zero.
             rows_are_solved::<Z, 1>(&block, lanes, (&inverses, &swaps), entry, &x);
             rows_are_solved::<Z, 2>(&block, lanes, (&inverses, &swaps), entry, &x);
             rows_are_solved::<Z, 4>(&block, lanes, (&inverses, &swaps), entry, &x);

@@ -1,7 +1,7 @@
 //! R-structured matrices.
 
 use super::Scalar;
-use super::structure::{Place, Structure, StructureError};
+use super::structure::{DIAGONAL, LEFT, Structure, StructureError};
 use krawl::linalg::LANE;
 use krawl::linalg::rstructure::Lane;
 use std::sync::Arc;
@@ -11,29 +11,16 @@ use std::sync::Arc;
 #[derive(Debug, Clone)]
 pub struct RMatrix<T> {
     pub(super) structure: Arc<Structure>,
-    /// Columns of H, one vector each.
-    pub(super) h: Vec<Lane<T>>,
-    /// Rows of L, one vector each.
-    pub(super) l: Vec<Lane<T>>,
-    /// Columns of C.
-    pub(super) c: Vec<Lane<T>>,
-    /// The diagonal blocks, column by column.
-    pub(super) diagonal: Vec<Lane<T>>,
-    /// What is left of them (see `Block::tiles`).
-    pub(super) left: Vec<Lane<T>>,
+    /// Its numbers: see [`H`](super::structure::H) and those behind it.
+    pub(super) parts: [Vec<Lane<T>>; 5],
 }
 
 impl<T: Scalar> RMatrix<T> {
     /// A matrix of zeros. Matrices of one Newton iteration share the structure.
     pub fn zeros(structure: Arc<Structure>) -> Self {
         let zeros = |lanes: usize| vec![[T::zero(); LANE]; lanes];
-        let keys = structure.keys;
         RMatrix {
-            h: zeros(keys * structure.lanes),
-            l: zeros(keys * structure.lanes),
-            c: zeros(keys * structure.key_lanes()),
-            diagonal: zeros(structure.diagonal_lanes),
-            left: zeros(structure.left_lanes),
+            parts: structure.parts().map(zeros),
             structure,
         }
     }
@@ -52,21 +39,10 @@ impl<T: Scalar> RMatrix<T> {
         Ok(matrix)
     }
 
-    /// The structure.
-    pub fn structure(&self) -> &Arc<Structure> {
-        &self.structure
-    }
-
     /// An entry; zero where none is stored.
     pub fn get(&self, row: usize, column: usize) -> T {
-        match self.structure.place(row, column) {
-            None => T::zero(),
-            Some(Place::H(key, at)) => self.h.as_flattened()[self.vector(key) + at],
-            Some(Place::L(key, at)) => self.l.as_flattened()[self.vector(key) + at],
-            Some(Place::C(at)) => self.c.as_flattened()[at],
-            Some(Place::Diagonal(at)) => self.diagonal.as_flattened()[at],
-            Some(Place::Left(at)) => self.left.as_flattened()[at],
-        }
+        let place = self.structure.place(row, column);
+        place.map_or(T::zero(), |(part, at)| self.parts[part].as_flattened()[at])
     }
 
     /// Sets an entry.
@@ -74,33 +50,18 @@ impl<T: Scalar> RMatrix<T> {
     /// # Panics
     /// If the structure has no place for it.
     pub fn set(&mut self, row: usize, column: usize, value: T) {
-        let place = match self.structure.place(row, column) {
-            None => panic!("entry ({row}, {column}) is not in the structure"),
-            Some(Place::H(key, at)) => {
-                let start = self.vector(key);
-                &mut self.h.as_flattened_mut()[start + at]
-            }
-            Some(Place::L(key, at)) => {
-                let start = self.vector(key);
-                &mut self.l.as_flattened_mut()[start + at]
-            }
-            Some(Place::C(at)) => &mut self.c.as_flattened_mut()[at],
-            Some(Place::Diagonal(at)) => &mut self.diagonal.as_flattened_mut()[at],
-            Some(Place::Left(at)) => &mut self.left.as_flattened_mut()[at],
+        let Some((part, at)) = self.structure.place(row, column) else {
+            panic!("entry ({row}, {column}) is not in the structure");
         };
-        *place = value;
+        self.parts[part].as_flattened_mut()[at] = value;
     }
 
     /// The matrix over other scalars, `f` applied to each entry: `f` must take zero to zero.
     pub fn map<U: Scalar>(&self, f: impl Fn(T) -> U) -> RMatrix<U> {
-        let all = |lanes: &[Lane<T>]| lanes.iter().map(|lane| lane.map(&f)).collect();
+        let all = |lanes: &Vec<Lane<T>>| lanes.iter().map(|lane| lane.map(&f)).collect();
         RMatrix {
             structure: self.structure.clone(),
-            h: all(&self.h),
-            l: all(&self.l),
-            c: all(&self.c),
-            diagonal: all(&self.diagonal),
-            left: all(&self.left),
+            parts: self.parts.each_ref().map(all),
         }
     }
 
@@ -115,7 +76,7 @@ impl<T: Scalar> RMatrix<T> {
                     f(row, key, self.get(row, key));
                 }
             }
-            let data = self.left.as_flattened();
+            let data = self.parts[LEFT].as_flattened();
             for (first, width, range) in block.tiles() {
                 let tile = data[range.start * LANE..range.end * LANE].chunks_exact(width * LANE);
                 for (&column, entries) in block.columns.iter().zip(tile) {
@@ -125,7 +86,7 @@ impl<T: Scalar> RMatrix<T> {
                 }
             }
             let start = block.diagonal * LANE;
-            let columns = self.diagonal.as_flattened()[start..].chunks(block.lanes * LANE);
+            let columns = self.parts[DIAGONAL].as_flattened()[start..].chunks(block.lanes * LANE);
             for (column, entries) in rows.clone().zip(columns) {
                 for (row, &value) in rows.clone().zip(entries) {
                     f(row, k + column, value);
@@ -137,11 +98,6 @@ impl<T: Scalar> RMatrix<T> {
                 f(row, column, self.get(row, column));
             }
         }
-    }
-
-    /// Where the vector of a key unknown, or of an ignored equation, starts.
-    fn vector(&self, key: usize) -> usize {
-        key * self.structure.lanes * LANE
     }
 }
 
@@ -189,46 +145,6 @@ pub fn backward_error(matrix: &RMatrix<f64>, x: &[f64], b: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn entries_come_back_where_they_were_put() {
-        // Blocks of one tile, of several, of a part of a lane; some columns left out.
-        for (keys, blocks) in [
-            (0, vec![1]),
-            (2, vec![1, 3, 1]),
-            (1, vec![4, 20, 37, 16, 2]),
-            (3, vec![]),
-        ] {
-            let n: usize = blocks.iter().sum();
-            let block_of: Vec<usize> = (0..blocks.len())
-                .flat_map(|b| std::iter::repeat_n(b, blocks[b]))
-                .collect();
-            let mut entries = Vec::new();
-            for i in 0..n + keys {
-                for j in 0..n + keys {
-                    let in_a = i < n && j >= keys;
-                    if in_a && block_of[j - keys] > block_of[i] {
-                        continue;
-                    }
-                    if !in_a || block_of[j - keys] == block_of[i] || (i + j) % 3 == 0 {
-                        entries.push((i, j, (1 + i * 1000 + j) as f64));
-                    }
-                }
-            }
-            let matrix = RMatrix::from_entries(keys, &blocks, &entries).unwrap();
-            for &(i, j, x) in &entries {
-                assert_eq!(matrix.get(i, j), x);
-            }
-            let mut seen = Vec::new();
-            matrix.for_each(|i, j, x| {
-                if x != 0.0 {
-                    seen.push((i, j, x));
-                }
-            });
-            seen.sort_by_key(|entry| (entry.0, entry.1));
-            assert_eq!(seen, entries);
-        }
-    }
 
     #[test]
     fn wrong_structures_are_refused() {

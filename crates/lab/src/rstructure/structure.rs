@@ -37,8 +37,6 @@ pub(super) struct Block {
     /// A's columns that have entries left of the block, in order. Such a column is stored with
     /// all rows of the block.
     pub columns: Vec<u32>,
-    /// Where those unknowns are in a vector.
-    pub positions: Vec<u32>,
     /// The first lane of the diagonal block, column by column, and of what is left of it.
     pub diagonal: usize,
     pub left: usize,
@@ -58,19 +56,13 @@ pub enum StructureError {
     Above(usize, usize, usize),
 }
 
-/// Where an entry is stored.
-pub(super) enum Place {
-    /// In H: key unknown, position in a vector.
-    H(usize, usize),
-    /// In L: ignored equation, position in a vector.
-    L(usize, usize),
-    /// In C: position in its columns.
-    C(usize),
-    /// Position in the diagonal blocks.
-    Diagonal(usize),
-    /// Position left of them.
-    Left(usize),
-}
+/// The parts in which a matrix is stored: columns of H, rows of L, columns of C, the diagonal blocks column by column, and what is left of these
+/// (see [`Block::tiles`]).
+pub(super) const H: usize = 0;
+pub(super) const L: usize = 1;
+pub(super) const C: usize = 2;
+pub(super) const DIAGONAL: usize = 3;
+pub(super) const LEFT: usize = 4;
 
 impl Structure {
     /// The structure with `keys` key unknowns, diagonal blocks of the given sizes and the given
@@ -107,7 +99,6 @@ impl Structure {
                 at: structure.lanes,
                 lanes,
                 columns: Vec::new(),
-                positions: Vec::new(),
                 diagonal: structure.diagonal_lanes,
                 left: 0,
             });
@@ -135,18 +126,11 @@ impl Structure {
                 block.columns.push((column - keys) as u32);
             }
         }
-        for index in 0..structure.blocks.len() {
-            let mut columns = std::mem::take(&mut structure.blocks[index].columns);
-            columns.sort_unstable();
-            columns.dedup();
-            let positions = columns
-                .iter()
-                .map(|&column| structure.position(column as usize) as u32);
-            let positions = positions.collect();
-            let block = &mut structure.blocks[index];
+        for block in &mut structure.blocks {
+            block.columns.sort_unstable();
+            block.columns.dedup();
             block.left = structure.left_lanes;
-            structure.left_lanes += block.lanes * columns.len();
-            (block.columns, block.positions) = (columns, positions);
+            structure.left_lanes += block.lanes * block.columns.len();
         }
         Ok(structure)
     }
@@ -168,31 +152,9 @@ impl Structure {
         Arc::new(structure.expect("the equations that were ordered"))
     }
 
-    /// The number k of key unknowns.
-    pub fn keys(&self) -> usize {
-        self.keys
-    }
-
-    /// The order n of A.
-    pub fn order(&self) -> usize {
-        self.order
-    }
-
     /// The order n + k of the whole matrix (which is what table 2 of the paper calls n).
     pub fn size(&self) -> usize {
         self.order + self.keys
-    }
-
-    /// The sizes of the diagonal blocks.
-    pub fn block_sizes(&self) -> impl Iterator<Item = usize> + '_ {
-        self.blocks.iter().map(|block| block.size)
-    }
-
-    /// The numbers that are stored, padding left out: what memory and one pass over A cost.
-    pub fn stored(&self) -> usize {
-        let rows = |block: &Block| block.size * (block.size + block.columns.len());
-        let a: usize = self.blocks.iter().map(rows).sum();
-        a + self.keys * (2 * self.order + self.keys)
     }
 
     /// Lanes of a column of C.
@@ -206,31 +168,45 @@ impl Structure {
         block.at * LANE + index - block.start
     }
 
-    /// Where an entry is stored, if it is.
-    pub(super) fn place(&self, row: usize, column: usize) -> Option<Place> {
+    /// Lanes of each part.
+    pub(super) fn parts(&self) -> [usize; 5] {
+        let vectors = self.keys * self.lanes;
+        let of_keys = self.keys * self.key_lanes();
+        [
+            vectors,
+            vectors,
+            of_keys,
+            self.diagonal_lanes,
+            self.left_lanes,
+        ]
+    }
+
+    /// In which part an entry is stored, and its position there, if it is.
+    pub(super) fn place(&self, row: usize, column: usize) -> Option<(usize, usize)> {
         if row >= self.size() || column >= self.size() {
             return None;
         }
         let (n, k) = (self.order, self.keys);
+        let in_vector = |vector: usize, at: usize| vector * self.lanes * LANE + self.position(at);
         if row >= n {
             return Some(if column < k {
-                Place::C(column * self.key_lanes() * LANE + row - n)
+                (C, column * self.key_lanes() * LANE + row - n)
             } else {
-                Place::L(row - n, self.position(column - k))
+                (L, in_vector(row - n, column - k))
             });
         }
         if column < k {
-            return Some(Place::H(column, self.position(row)));
+            return Some((H, in_vector(column, row)));
         }
         let (column, block) = (column - k, &self.blocks[self.block_of[row] as usize]);
         let row = row - block.start;
         if column >= block.start {
             let column = column - block.start;
             let start = (block.diagonal + column * block.lanes) * LANE;
-            return (column < block.size).then_some(Place::Diagonal(start + row));
+            return (column < block.size).then_some((DIAGONAL, start + row));
         }
         let index = block.columns.binary_search(&(column as u32)).ok()?;
-        Some(Place::Left(block.left_position(row, index)))
+        Some((LEFT, block.left_position(row, index)))
     }
 }
 

@@ -258,6 +258,34 @@ fn the_smallest_systems() {
 }
 
 #[test]
+fn entries_come_back_where_they_were_put() {
+    // Blocks of one tile, of several, of a part of a lane; some columns left out.
+    for (keys, blocks) in [
+        (0, vec![1]),
+        (2, vec![1, 3, 1]),
+        (1, vec![4, 20, 37, 16, 2]),
+        (3, vec![]),
+    ] {
+        let mut sample = random(keys, blocks, 1);
+        for (k, entry) in sample.entries.iter_mut().enumerate() {
+            entry.2 = k as i64 + 1;
+        }
+        let matrix = sample.matrix(|x| x as f64);
+        let mut seen = Vec::new();
+        matrix.for_each(|i, j, x| {
+            if x != 0.0 {
+                seen.push((i, j, x as i64));
+            }
+        });
+        seen.sort_by_key(|entry| (entry.0, entry.1));
+        assert_eq!(seen, sample.entries);
+        for (i, j, x) in sample.entries {
+            assert_eq!(matrix.get(i, j), x as f64);
+        }
+    }
+}
+
+#[test]
 fn large_blocks_and_many_key_unknowns() {
     for (keys, blocks) in [
         (0, vec![100, 50, 3]),

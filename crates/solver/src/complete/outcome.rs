@@ -145,7 +145,7 @@ pub struct Constructed {
 }
 
 /// What is placed in one of several ways, whatever else there is.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Choice {
     /// The points and objects that are placed, beside what they hang on.
     pub names: Vec<String>,

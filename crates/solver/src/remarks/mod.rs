@@ -24,7 +24,7 @@ mod target;
 mod twins;
 mod words;
 
-use crate::problem::{Item, Problem, Shape};
+use crate::problem::{Item, Object, Problem};
 
 pub use moving::{Moves, moves};
 pub(crate) use target::detour;
@@ -106,21 +106,6 @@ impl Remark {
     }
 }
 
-/// The points of an object.
-fn points_of(shape: &Shape) -> Vec<usize> {
-    match shape {
-        Shape::Line(points) => points.to_vec(),
-        Shape::Plane(points) => points.to_vec(),
-        Shape::Round { center, .. } => vec![*center],
-        Shape::Arc { center, start, end } => vec![*center, *start, *end],
-        Shape::Body { points, .. } => points.clone(),
-        Shape::FreeLine { .. }
-        | Shape::FreePlane { .. }
-        | Shape::Number { .. }
-        | Shape::Joint { .. } => Vec::new(),
-    }
-}
-
 /// Most points of problems that are looked at for what takes long.
 const MANY: usize = 200;
 
@@ -175,7 +160,7 @@ pub fn remarks(problem: &Problem) -> Vec<Remark> {
 /// The points that constraints other than distances are about, by themselves or through objects.
 fn touched(problem: &Problem) -> Vec<bool> {
     let mut touched = vec![false; problem.points.len()];
-    let of_objects = problem.objects.iter().flat_map(|o| points_of(&o.shape));
+    let of_objects = problem.objects.iter().flat_map(Object::points);
     let items = problem.constraints.iter().flat_map(|c| &c.items);
     let of_constraints = items.filter_map(|item| match item {
         Item::Point(p) => Some(*p),

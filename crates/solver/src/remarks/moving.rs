@@ -8,7 +8,7 @@
 use crate::blocks::{Floats, System, straight};
 use crate::order::InOrder;
 use crate::places::Each as _;
-use crate::problem::{Distance, Problem, Target, list};
+use crate::problem::{Distance, Problem, list};
 use crate::system::typical_length;
 use nalgebra::{DMatrix, DVector};
 
@@ -116,11 +116,7 @@ fn off(problem: &Problem, distance: &Distance) -> f64 {
     let [a, b] = distance.points.each(|p| &problem.points[p].sketch);
     let square = |k: usize| (a[k].to_f64() - b[k].to_f64()).powi(2);
     let is: f64 = (0..problem.dimension).map(square).sum();
-    let target = match &distance.target {
-        Target::Length(length) => length.to_f64(),
-        Target::SquaredLength(squared) => squared.to_f64().sqrt(),
-    };
-    (is.sqrt() - target).abs()
+    (is.sqrt() - distance.target.to_f64()).abs()
 }
 
 /// A place led to where equations are met as nearly as what is well determined allows, and by how much it misses them.

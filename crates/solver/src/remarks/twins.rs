@@ -2,7 +2,7 @@
 
 use super::{Remark, triangles};
 use crate::places::Each as _;
-use crate::problem::{Problem, Target};
+use crate::problem::Problem;
 use crate::rational::Rational;
 use std::collections::HashMap;
 
@@ -12,11 +12,11 @@ fn lengths(problem: &Problem, index: usize) -> (Rational, Rational, bool) {
     let [a, b] = distance.points.each(|p| &problem.points[p].sketch);
     let terms = (0..3).map(|k| (a[k].value() - b[k].value()).pow(2));
     let sketch = terms.fold(Rational::from_integer(0.into()), |sum, x| sum + x);
-    let target = match &distance.target {
-        Target::Length(length) => length.value().pow(2),
-        Target::SquaredLength(squared) => squared.value().clone(),
-    };
-    (sketch, target, index == problem.homotopy.bend)
+    (
+        sketch,
+        distance.target.squared(),
+        index == problem.homotopy.bend,
+    )
 }
 
 /// Triangles on a common side whose other sides are the same, in whichever order.

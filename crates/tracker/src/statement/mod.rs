@@ -99,6 +99,14 @@ impl Target {
             Target::SquaredLength(squared) => squared.value().clone(),
         }
     }
+
+    /// The length, as a float.
+    pub fn to_f64(&self) -> f64 {
+        match self {
+            Target::Length(length) => length.to_f64(),
+            Target::SquaredLength(squared) => squared.to_f64().sqrt(),
+        }
+    }
 }
 
 /// What defines the homotopy beside points and distances (RR 8705, sections 2.2 and 3.1).

@@ -1,0 +1,262 @@
+//! Solutions to many digits: the same figures that a box of floats holds, in ratios.
+//!
+//! Newton's method with one inverse in floats gains as many digits in each step as that has; the last step is a test of Krawczyk, K = x − Y F(x) +
+//! (I − Y F'(X)) (X − x) within X, in which F(x) is exact and F'(X) in intervals. What it finds is a figure of the problem, and where it lies in a
+//! box that holds exactly one, it is that one.
+//!
+//! ```
+//! use krawl::digits::to_digits;
+//! use krawl::problem::Problem;
+//! use krawl::track::{Options, prove};
+//!
+//! let text = "name = \"root\"\ndimension = 2\n[unknowns]\nx = 1\n[constraints]\nequations = [\"x^2 = 2\"]\n";
+//! let problem = Problem::parse(text, "root.toml")?;
+//! let run = prove(&problem, &Options::certified())?;
+//! let positive = run.solutions.iter().find(|s| s.objects[0].number().unwrap().inf() > 0.0).unwrap();
+//! let found = to_digits(&problem, &positive.points, &positive.objects, 40)?;
+//! assert_eq!(found.numbers[0], ("x".to_owned(), "1.414213562373095048801688724209698078570".to_owned()));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+use crate::elimination::invert;
+use crate::interval::{Interval, enclose_rational, point};
+use crate::problem::{Decimal, Problem, Shape};
+use crate::rational::Rational;
+use crate::system::{Homotopy, Located};
+use num_bigint::BigInt;
+
+/// More digits are not told: right-hand sides that are no ratios are known to some more.
+pub const MOST_DIGITS: u32 = 60;
+/// Newton's method takes no more steps: it gains some digits in each.
+const STEPS: usize = 40;
+
+/// A solution to many digits, each number off by at most 1 in its last.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Digits {
+    /// The coordinates of the points.
+    pub points: Vec<Vec<String>>,
+    /// Unknowns and radii, with their names.
+    pub numbers: Vec<(String, String)>,
+}
+
+/// A solution of a problem, whose points are seen from its reference, to so many digits: of its largest coordinate, and as many behind the
+/// point for all others; of each unknown and radius.
+///
+/// # Errors
+/// In words, why it is not told: a figure with other objects, or one at which the equations are nearly dependent.
+pub fn to_digits(
+    problem: &Problem,
+    points: &[[Interval; 3]],
+    objects: &[Located],
+    digits: u32,
+) -> Result<Digits, String> {
+    let homotopy = Homotopy::new(problem).map_err(|error| error.to_string())?;
+    let drawn = drawn(problem, points, objects)?;
+    let drawn = Homotopy::new(&drawn).map_err(|error| error.to_string())?;
+    if drawn.equations != homotopy.equations {
+        return Err("the solution is a special figure, with other equations".to_owned());
+    }
+    let near: Vec<f64> = drawn.sketch_of_unknowns().map(|x| x.mid()).collect();
+    let dependent = || "the equations are nearly dependent there".to_owned();
+    let (x, radius) = refined(&homotopy, near, digits).ok_or_else(dependent)?;
+    let enclosed = |i: usize| around(&x[i], &radius);
+    let unit = Rational::from_float(homotopy.unit).expect("a power of two");
+    let scaled = |i: usize, value: &Rational| value * &unit.pow(homotopy.power(i));
+    // The box of the solution holds it.
+    let is_in = |i: usize, known: Interval| {
+        let ends = [&x[i] - &radius, &x[i] + &radius].map(|end| scaled(i, &end));
+        let [low, high] = [known.inf(), known.sup()].map(Rational::from_float);
+        low.is_none_or(|low| low <= ends[0]) && high.is_none_or(|high| ends[1] <= high)
+    };
+    let coordinates = points.iter().enumerate();
+    let mut coordinates =
+        coordinates.flat_map(|(p, at)| (0..problem.dimension).map(move |k| (p, k, at[k])));
+    let are_in = coordinates.all(|(p, axis, known)| match homotopy.coordinate(p, axis) {
+        Some(i) => is_in(i, known),
+        None => known.contains(0.0),
+    });
+    let mut numbers = Vec::new();
+    for (object, located) in objects.iter().enumerate() {
+        let (Some(known), name) = (located.number(), &problem.objects[object].name) else {
+            continue;
+        };
+        if let Some(i) = homotopy.object_unknowns(object).next() {
+            numbers.push((name, i, known));
+        }
+    }
+    if !are_in || !numbers.iter().all(|&(_, i, known)| is_in(i, known)) {
+        return Err("the figure found is not within the solution's box".to_owned());
+    }
+    if !homotopy.is_proper_over(enclosed) {
+        return Err("a length or a vector may vanish there".to_owned());
+    }
+    let zero = Rational::zero;
+    let value = |i: usize| scaled(i, &x[i]);
+    let largest = (0..homotopy.points)
+        .flat_map(|p| homotopy.place(p, value))
+        .map(|x| x.abs())
+        .fold(zero(), |a, b| if a < b { b } else { a });
+    let behind = digits as i32 - places(&largest);
+    let of_point = |p: usize| {
+        let all = homotopy.place(p, value).into_iter().take(problem.dimension);
+        all.map(|x| written(&x, behind)).collect()
+    };
+    Ok(Digits {
+        points: (0..homotopy.points).map(of_point).collect(),
+        numbers: numbers
+            .into_iter()
+            .map(|(name, i, _)| {
+                let x = value(i);
+                (name.clone(), written(&x, digits as i32 - places(&x.abs())))
+            })
+            .collect(),
+    })
+}
+
+/// The problem drawn as a solution, for where its unknowns are about.
+fn drawn(
+    problem: &Problem,
+    points: &[[Interval; 3]],
+    objects: &[Located],
+) -> Result<Problem, String> {
+    let decimal = |x: f64| -> Decimal {
+        let text = format!("{x:e}");
+        text.parse().expect("floats are decimals")
+    };
+    let mut drawn = problem.clone();
+    for (point, at) in drawn.points.iter_mut().zip(points) {
+        point.sketch = at.map(|x| decimal(x.mid()));
+    }
+    for (object, located) in drawn.objects.iter_mut().zip(objects) {
+        match (&mut object.shape, located.number()) {
+            (Shape::Number { sketch }, Some(number)) => *sketch = decimal(number.mid()),
+            (Shape::Round { radius, .. }, Some(number)) => *radius = decimal(number.mid()),
+            // What is told by points.
+            (Shape::Line(_) | Shape::Plane(_) | Shape::Arc { .. }, _) => {}
+            (Shape::Body { place: None, .. }, _) => {}
+            _ => {
+                return Err(format!(
+                    "{} is no point, circle, sphere or unknown, nor told by points",
+                    object.name
+                ));
+            }
+        }
+    }
+    Ok(drawn)
+}
+
+/// A zero of the equations at t = 1 near some numbers, in the homotopy's unit, and how far each of its unknowns is from the exact one at most:
+/// exactly one zero is as near as that. `None`: that is not proved, or not to so many digits.
+fn refined(homotopy: &Homotopy, near: Vec<f64>, digits: u32) -> Option<(Vec<Rational>, Rational)> {
+    let m = homotopy.equations;
+    let terms: Vec<_> = (0..m).map(|e| homotopy.terms(e)).collect();
+    let rights: Vec<_> = homotopy
+        .rights
+        .iter()
+        .map(|right| right.ball_at_target())
+        .collect();
+    let jacobian = |at: &dyn Fn(usize) -> Interval| -> Vec<Vec<Interval>> {
+        (0..m).map(|e| homotopy.slopes(e, at)).collect()
+    };
+    let middle = jacobian(&|i| point(near[i]));
+    let mut inverse: Vec<f64> = middle.iter().flatten().map(|x| x.mid()).collect();
+    if !invert(&mut inverse, m) || inverse.iter().any(|x| !x.is_finite()) {
+        return None;
+    }
+    // Digits of unknowns that are about 1, and some more, for numbers that are small.
+    let bits = i64::from(digits) * 10 / 3 + 40;
+    let mut x: Vec<Rational> = near
+        .iter()
+        .filter_map(|&x| Rational::from_float(x))
+        .collect();
+    // The step −Y F(x), and how far right-hand sides that are no ratios leave it open.
+    let step = |x: &[Rational]| -> Vec<(Rational, Rational)> {
+        let at = |entry: Option<usize>| entry.map_or_else(Rational::zero, |i| x[i].clone());
+        let half = Rational::new(1.into(), 2.into());
+        let missed: Vec<Rational> = (0..m)
+            .map(|e| {
+                let products = terms[e].iter();
+                let doubled = products.fold(Rational::zero(), |sum, p| {
+                    sum + Rational::from_integer(p.factor.into()) * p.value(at)
+                });
+                doubled * &half - &rights[e].middle
+            })
+            .collect();
+        let row = |i: usize| {
+            let mut sum = (Rational::zero(), Rational::zero());
+            for e in 0..m {
+                let y = Rational::from_float(inverse[i * m + e]).expect("a finite float");
+                sum.0 -= &y * &missed[e];
+                sum.1 += y.abs() * &rights[e].radius;
+            }
+            sum
+        };
+        (0..m).map(row).collect()
+    };
+    let least = Rational::one().shifted(-bits);
+    let greatest = |steps: &[(Rational, Rational)]| {
+        let sizes = steps.iter().map(|(step, open)| step.abs() + open);
+        sizes.fold(Rational::zero(), |a, b| if a < b { b } else { a })
+    };
+    let mut steps = step(&x);
+    for _ in 0..STEPS {
+        if greatest(&steps) <= least {
+            break;
+        }
+        for (x, (step, _)) in x.iter_mut().zip(&steps) {
+            *x = (&*x + step).shifted(bits + 8).round().shifted(-bits - 8);
+        }
+        steps = step(&x);
+    }
+    // What F(x) leaves takes up half of the radius, and (I − Y F'(X)) (X − x) has to be less than the other half.
+    let radius = Rational::from_integer(2.into()) * greatest(&steps) + &least;
+    if radius > least.shifted(8) {
+        return None;
+    }
+    let jacobian = jacobian(&|i| around(&x[i], &radius));
+    let is_contracted = (0..m).all(|i| {
+        let all = (0..m).map(|j| {
+            let products = (0..m).map(|e| point(inverse[i * m + e]) * jacobian[e][j]);
+            let product = products.fold(point(0.0), |sum, x| sum + x);
+            point((point(f64::from(u8::from(i == j))) - product).mag())
+        });
+        all.fold(point(0.0), |sum, x| sum + x).sup() < 0.5
+    });
+    is_contracted.then_some((x, radius))
+}
+
+/// All numbers as near to one as that.
+fn around(x: &Rational, radius: &Rational) -> Interval {
+    enclose_rational(&(x - radius)).convex_hull(enclose_rational(&(x + radius)))
+}
+
+/// How many digits a number that is not negative has before the point; less than 0 where it begins with zeros behind it. Of 0 it is 0.
+fn places(x: &Rational) -> i32 {
+    if x.is_zero() {
+        return 0;
+    }
+    let ten = Rational::from_integer(10.into());
+    let mut places = 0;
+    while *x >= ten.pow(places) {
+        places += 1;
+    }
+    while *x < ten.pow(places - 1) {
+        places -= 1;
+    }
+    places
+}
+
+/// The decimal nearest to a ratio with so many digits behind the point, none if that is less than 0.
+fn written(x: &Rational, behind: i32) -> String {
+    let behind = behind.max(0);
+    let scaled = x.abs() * Rational::from_integer(10.into()).pow(behind);
+    let whole: BigInt = scaled.round().to_integer();
+    let digits = format!("{whole:0>width$}", width = behind as usize + 1);
+    let (before, after) = digits.split_at(digits.len() - behind as usize);
+    let is_zero = digits.bytes().all(|digit| digit == b'0');
+    let sign = if x.is_negative() && !is_zero { "-" } else { "" };
+    match after {
+        "" => format!("{sign}{before}"),
+        after => format!("{sign}{before}.{after}"),
+    }
+}
