@@ -93,6 +93,7 @@
 //! - [`tolerance`]: dimensions within limits, and what they do to a figure
 //! - [`certificate`]: proofs on disk, and the checker that proves them again
 //! - [`complete`]: all real solutions, proved to be all
+//! - [`digits`]: solutions to many digits
 //! - [`import`]: sketches of SolveSpace and FreeCAD and molecules, in and out
 //! - [`complex`]: all complex solutions, every path proved
 //! - [`explore`]: new sketches from solutions, and their paths
@@ -114,8 +115,8 @@ extern crate self as krawl;
 
 // What computes and proves is in packages of its own, so that they alone are built for speed.
 pub use krawl_solver::{
-    blocks, certificate, complete, complex, constraint, edit, equations, generate, interval,
-    motion, problem, rational, system, tolerance, track,
+    blocks, certificate, complete, complex, constraint, digits, edit, equations, generate,
+    interval, motion, problem, rational, system, tolerance, track,
 };
 #[doc(hidden)]
 pub use krawl_solver::{elimination, linalg, plan, remarks};

@@ -1,6 +1,7 @@
 //! `krawl all`: searches all figures that meet the dimensions.
 
 use super::check::counted;
+use super::digits::ManyDigits;
 use super::edit::say_if_it_moves;
 use super::input::Asked;
 use super::measured::{Measured, placed};
@@ -14,8 +15,9 @@ use krawl::complete::{Complete, Keep, Options, Progress, Status, Tested, Unserve
 use krawl::constraint::Symmetry;
 use krawl::report::{
     ProgressLine, complete_to_json, complete_to_table, complete_to_value, conformers_to_table,
-    conformers_to_value,
+    conformers_to_value, digits_to_table, digits_to_value,
 };
+use serde_json::{Map, Value};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -96,6 +98,8 @@ pub struct Arguments {
     take: Take,
     #[command(flatten)]
     measured: Measured,
+    #[command(flatten)]
+    many: ManyDigits,
     #[command(flatten)]
     pictures: Pictures,
     /// Print no table and no progress
@@ -217,19 +221,27 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
         let conformers = skeleton.conformers(&middles, either);
         (skeleton, conformers)
     });
+    let mut seen = problem.clone();
+    seen.homotopy.reference.clone_from(&result.reference);
+    let many = arguments.many.of(&seen, &result.solutions);
     if let Some(json) = &json {
-        let text = match (measures.is_empty(), &conformers) {
-            (true, None) => complete_to_json(&problem, &result),
-            (_, conformers) => {
-                let mut value = complete_to_value(&problem, &result);
-                if !measures.is_empty() {
-                    value["measures"] = measures.to_value(figures());
-                }
-                if let Some((skeleton, conformers)) = conformers {
-                    value["conformers"] = conformers_to_value(&problem, skeleton, conformers);
-                }
-                value.to_string()
+        let mut more = Map::new();
+        if !measures.is_empty() {
+            more.insert("measures".to_owned(), measures.to_value(figures()));
+        }
+        if let Some((skeleton, conformers)) = &conformers {
+            let told = conformers_to_value(&problem, skeleton, conformers);
+            more.insert("conformers".to_owned(), told);
+        }
+        if arguments.many.is_wanted() {
+            more.insert("digits".to_owned(), digits_to_value(&problem, &many));
+        }
+        let text = match complete_to_value(&problem, &result) {
+            Value::Object(mut all) if !more.is_empty() => {
+                all.append(&mut more);
+                Value::Object(all).to_string()
             }
+            _ => complete_to_json(&problem, &result),
         };
         written &= json.write(&(text + "\n"));
     }
@@ -239,6 +251,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
         if let Some((skeleton, conformers)) = &conformers {
             text += &conformers_to_table(&problem, skeleton, conformers);
         }
+        text += &digits_to_table(&problem, &many);
         let made = made.clause();
         if !made.is_empty() {
             text +=

@@ -4,6 +4,7 @@ mod all;
 mod check;
 mod compare;
 mod complex;
+mod digits;
 mod edit;
 mod explore;
 mod export;

@@ -13,7 +13,10 @@ pub fn digits_to_table(problem: &Problem, all: &[Result<Digits, String>]) -> Str
         let found = match one {
             Ok(found) => found,
             Err(why) => {
-                let _ = writeln!(out, "\nSolution {number} is not told to more digits: {why}.");
+                let _ = writeln!(
+                    out,
+                    "\nSolution {number} is not told to more digits: {why}."
+                );
                 continue;
             }
         };
@@ -36,11 +39,13 @@ pub fn digits_to_value(problem: &Problem, all: &[Result<Digits, String>]) -> Val
     let each = all.iter().map(|one| {
         let found = one.as_ref().ok()?;
         let points = problem.points.iter().zip(&found.points);
-        let points: Map<String, Value> =
-            points.map(|(point, at)| (point.name.clone(), json!(at))).collect();
+        let points: Map<String, Value> = points
+            .map(|(point, at)| (point.name.clone(), json!(at)))
+            .collect();
         let numbers = found.numbers.iter();
-        let numbers: Map<String, Value> =
-            numbers.map(|(name, number)| (name.clone(), json!(number))).collect();
+        let numbers: Map<String, Value> = numbers
+            .map(|(name, number)| (name.clone(), json!(number)))
+            .collect();
         Some(json!({"points": points, "numbers": numbers}))
     });
     each.collect()

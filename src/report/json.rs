@@ -59,17 +59,18 @@ impl<'a> Run<'a> {
     }
 
     /// The same, with how many of all figures the path has, where that is known, what one dimension can do alone, where the path has
-    /// no figure, and what is measured of the solutions.
+    /// no figure, what is measured of the solutions, and these to many digits.
     pub fn to_json_among(
         &self,
         among: Option<Among>,
         alone: &[Alone],
-        measures: Option<Value>,
+        (measures, digits): (Option<Value>, Option<Value>),
     ) -> String {
         text(&Document {
             of_all: among.map(|among| among.all),
             alone: (!alone.is_empty()).then(|| alone_to_value(alone)),
             measures,
+            digits,
             ..Document::new(self)
         })
     }
@@ -126,6 +127,8 @@ struct Document<'a> {
     alone: Option<Value>,
     #[serde(skip_serializing_if = "Option::is_none")]
     measures: Option<Value>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    digits: Option<Value>,
 }
 
 #[derive(Serialize)]
@@ -252,6 +255,7 @@ impl<'a> Document<'a> {
             of_all: None,
             alone: None,
             measures: None,
+            digits: None,
         }
     }
 }

@@ -7,6 +7,7 @@ mod comparison;
 mod complete;
 mod complex;
 mod conformers;
+mod digits;
 mod drawing;
 mod edit;
 #[cfg(feature = "explore")]
@@ -42,6 +43,7 @@ pub use complete::{
 };
 pub use complex::{complex_set_theorem, complex_to_json, complex_to_table};
 pub use conformers::{conformers_to_table, conformers_to_value};
+pub use digits::{digits_to_table, digits_to_value};
 pub use edit::{
     account_in_words, alone_in_words, alone_to_value, decomposition_in_words, edit_in_words,
     edit_to_document, edit_to_json, edit_to_table, edit_to_value, figure_to_value,

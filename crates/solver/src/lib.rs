@@ -23,6 +23,7 @@ pub mod blocks;
 pub mod certificate;
 pub mod complete;
 pub mod complex;
+pub mod digits;
 pub mod edit;
 pub mod motion;
 #[doc(hidden)]

@@ -89,6 +89,7 @@ impl Arguments {
             (self.samples.is_some(), "--samples"),
             (self.cert.is_some(), "--cert"),
             (self.pictures.has_animation(), "--animation"),
+            (self.many.is_wanted(), "--digits"),
         ];
         asked.iter().find(|(is, _)| *is).map(|(_, option)| *option)
     }

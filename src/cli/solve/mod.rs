@@ -6,6 +6,7 @@ mod hints;
 mod path;
 mod told;
 
+use super::digits::ManyDigits;
 use super::edit::LeftOut;
 use super::measured::Measured;
 use super::output::{self, Beside, Destination, number};
@@ -123,6 +124,8 @@ pub struct Arguments {
     #[command(flatten)]
     measured: Measured,
     #[command(flatten)]
+    many: ManyDigits,
+    #[command(flatten)]
     pictures: Pictures,
     /// Print one line for each problem
     #[arg(long)]
@@ -199,6 +202,14 @@ impl Arguments {
             (
                 is_float && self.samples.is_some(),
                 "float mode keeps no path: leave out `--samples`, or `--mode float`",
+            ),
+            (
+                is_float && self.many.is_wanted(),
+                "float mode proves no digits: leave out `--digits`, or `--mode float`",
+            ),
+            (
+                !is_one && self.many.is_wanted(),
+                "`--digits` is for one problem: name one file",
             ),
             (
                 !is_float && self.tolerance.is_some(),

@@ -16,8 +16,9 @@ use krawl::complete::{Among, Tested, among};
 use krawl::edit::{Alone, alone};
 use krawl::problem::Problem;
 use krawl::report::{
-    BlockRuns, Run, alone_in_words, alone_to_value, among_in_words, part_in_words, signed_in_words,
-    to_first_table, to_no_first, to_short_table, to_summary, to_table,
+    BlockRuns, Run, alone_in_words, alone_to_value, among_in_words, digits_to_table,
+    digits_to_value, part_in_words, signed_in_words, to_first_table, to_no_first, to_short_table,
+    to_summary, to_table,
 };
 use krawl::track::{Control, Limit, Options, Outcome, Signs, Status, Trace};
 use serde_json::Value;
@@ -176,8 +177,11 @@ impl Told<'_> {
             format!("{gap}{}{hints}", arguments.shown_blocks(&all))
         };
         self.tell((&value, &value), text, code)?;
-        if arguments.take.is_wanted() || !arguments.measured.is_empty() {
-            let what = "the solutions listed are of parts of the figure, none of which is written or measured";
+        if arguments.take.is_wanted()
+            || !arguments.measured.is_empty()
+            || arguments.many.is_wanted()
+        {
+            let what = "the solutions listed are of parts of the figure, none of which is written, measured or told to more digits";
             output::complain(&format!("{name}: {what}"));
             self.written = false;
         }
@@ -309,10 +313,13 @@ impl Told<'_> {
                 true => "",
                 false => ", without proof",
             };
-            let measured = measures.to_table(of, outcome.solutions[listed].iter().map(placed));
+            let measured =
+                measures.to_table(of, outcome.solutions[listed.clone()].iter().map(placed));
+            let solutions = &outcome.solutions[listed];
+            let many = digits_to_table(problem, &arguments.many.of(problem, solutions));
             let hints = hints(problem, &outcome, &name);
             let whole = arguments.whole_in_words(file);
-            self.written &= output::print(&format!("{gap}{whole}{text}{measured}{hints}"));
+            self.written &= output::print(&format!("{gap}{whole}{text}{measured}{many}{hints}"));
         }
         // What the path came to is out by now.
         let is_told = (!self.silent || self.has_json) && tested.is_none();
@@ -334,7 +341,9 @@ impl Told<'_> {
         if self.has_json {
             let figures = outcome.solutions.iter().map(placed);
             let measured = (!measures.is_empty()).then(|| measures.to_value(figures));
-            self.lines += &(run.to_json_among(among, &alone, measured) + "\n");
+            let many = arguments.many.of(problem, &outcome.solutions);
+            let many = (arguments.many.is_wanted()).then(|| digits_to_value(problem, &many));
+            self.lines += &(run.to_json_among(among, &alone, (measured, many)) + "\n");
         }
         Ok(cancel.load(Ordering::Relaxed))
     }

@@ -1,0 +1,38 @@
+//! Solutions to many digits, where these are asked for.
+
+use krawl::digits::{Digits, MOST_DIGITS, to_digits};
+use krawl::problem::Problem;
+use krawl::track::Solution;
+
+/// How many digits are wanted.
+#[derive(clap::Args)]
+pub(super) struct ManyDigits {
+    /// Tell points, unknowns and radii to so many digits, up to 60, with proof
+    ///
+    /// Of figures that are told by points, circles, spheres and unknowns; coordinates have as many digits behind the
+    /// point as the largest one
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=MOST_DIGITS as i64), hide_short_help = true)]
+    digits: Option<u32>,
+}
+
+impl ManyDigits {
+    /// Whether they are asked for.
+    pub fn is_wanted(&self) -> bool {
+        self.digits.is_some()
+    }
+
+    /// Solutions whose points are seen from the problem's reference, each to so many digits or why it is not; none where that is not
+    /// asked for.
+    pub fn of<'s>(
+        &self,
+        problem: &Problem,
+        solutions: impl IntoIterator<Item = &'s Solution>,
+    ) -> Vec<Result<Digits, String>> {
+        let Some(digits) = self.digits else {
+            return Vec::new();
+        };
+        let all = solutions.into_iter();
+        all.map(|s| to_digits(problem, &s.points, &s.objects, digits))
+            .collect()
+    }
+}
