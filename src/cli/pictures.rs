@@ -24,6 +24,14 @@ pub struct Pictures {
     /// Write the figures, the sketch first, as Wavefront OBJ
     #[arg(long, value_name = "FILE", help_heading = HEADING, hide_short_help = true)]
     obj: Option<PathBuf>,
+    /// Write the solutions as DXF, lines, circles and arcs in their size
+    #[arg(
+        long,
+        value_name = "FILE",
+        help_heading = "Pictures and figures",
+        hide_short_help = true
+    )]
+    dxf: Option<PathBuf>,
     /// Write the solutions as XYZ, as programs for molecules read it
     #[arg(long, value_name = "FILE", help_heading = HEADING)]
     xyz: Option<PathBuf>,
@@ -40,6 +48,7 @@ enum Kind {
     Svg,
     Animation,
     Obj,
+    Dxf,
     Xyz,
 }
 
@@ -55,6 +64,7 @@ impl Pictures {
             (Kind::Svg, &self.svg),
             (Kind::Animation, &self.animation),
             (Kind::Obj, &self.obj),
+            (Kind::Dxf, &self.dxf),
             (Kind::Xyz, &self.xyz),
         ]
         .into_iter()
@@ -134,6 +144,7 @@ impl Places<'_> {
                 Kind::Svg => Some(page.to_svg()),
                 Kind::Animation => page.to_moving_svg(),
                 Kind::Obj => Some(page.to_obj()),
+                Kind::Dxf => Some(page.to_dxf()),
                 Kind::Xyz => Some(page.to_xyz()),
             };
             well &= match text {

@@ -52,7 +52,7 @@ pub struct Arguments {
     /// Drive several dimensions together, from row to row of a table
     ///
     /// CSV, the first line their names, each other one their values
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["vary", "from", "to", "frames", "json", "cert", "html", "svg", "animation", "obj", "xyz"])]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["vary", "from", "to", "frames", "json", "cert", "html", "svg", "animation", "obj", "dxf", "xyz"])]
     table: Option<PathBuf>,
     /// With --table: write the figure of each row into this folder
     ///

@@ -134,7 +134,7 @@ fn results_of_other_verbs_meet_their_schemas() {
         (
             "complete",
             "complete",
-            &["all", "tests/data/norbornane.sdf"],
+            &["all", "tests/data/norbornane.sdf", "--digits", "20"],
         ),
         (
             "complete",

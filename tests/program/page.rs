@@ -290,6 +290,87 @@ fn pictures_and_figures_are_written() {
     assert!(xyz.starts_with("6\noctahedron: Solution 1, reached without a fold\n"));
 }
 
+/// Lines, a circle and an arc in DXF, read back as groups of a code and a value, against what was asked for.
+#[test]
+fn figures_are_written_as_dxf() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let text = "name = \"bracket\"\ndimension = 2\n[points]\na = [0, 0]\nb = [40, 1]\nc = [39, 20]\no = [30, 10]\n\
+                [lines]\nl = [\"a\", \"b\"]\n[circles]\nk = { center = \"o\", radius = 4 }\n\
+                [arcs]\nr = { center = \"a\", start = \"b\", end = \"c\" }\n[constraints]\nfixed = [\"a\"]\nhorizontal = [\"l\"]\n\
+                x = [[\"o\", 30]]\ny = [[\"o\", 10]]\ndistances = [[\"a\", \"b\", 40]]\nradii = [[\"k\", 4]]\n\
+                angles = [[\"b\", \"a\", \"c\", 30]]\n";
+    fs::write(path("bracket.toml"), text).unwrap();
+    let (code, _, errors) = krawl(&[
+        "edit",
+        &path("bracket.toml"),
+        "--set",
+        "radii:k=5",
+        "--dxf",
+        &path("after.dxf"),
+        "--quiet",
+    ]);
+    assert_eq!(code, Some(0), "{errors}");
+    let dxf = fs::read_to_string(path("after.dxf")).unwrap();
+    let lines: Vec<&str> = dxf.lines().collect();
+    let groups: Vec<(u32, &str)> = lines
+        .chunks(2)
+        .map(|pair| (pair[0].parse().unwrap(), pair[1]))
+        .collect();
+    assert_eq!(groups.last(), Some(&(0, "EOF")));
+    let entity = |kind: &str| -> Vec<(u32, f64)> {
+        let begin = groups.iter().position(|&group| group == (0, kind)).unwrap();
+        let own = groups[begin + 1..].iter().take_while(|group| group.0 != 0);
+        let own = own.filter(|group| group.0 != 8);
+        own.map(|&(code, value)| (code, value.parse().unwrap()))
+            .collect()
+    };
+    let expected: [(&str, &[(u32, f64)]); 3] = [
+        (
+            "LINE",
+            &[
+                (10, 0.0),
+                (20, 0.0),
+                (30, 0.0),
+                (11, 40.0),
+                (21, 0.0),
+                (31, 0.0),
+            ],
+        ),
+        ("CIRCLE", &[(10, 30.0), (20, 10.0), (30, 0.0), (40, 5.0)]),
+        (
+            "ARC",
+            &[
+                (10, 0.0),
+                (20, 0.0),
+                (30, 0.0),
+                (40, 40.0),
+                (50, 0.0),
+                (51, 30.0),
+            ],
+        ),
+    ];
+    for (kind, expected) in expected {
+        let found = entity(kind);
+        assert_eq!(found.len(), expected.len(), "{kind}: {found:?}");
+        for (found, expected) in found.iter().zip(expected) {
+            assert_eq!(found.0, expected.0, "{kind}");
+            assert!((found.1 - expected.1).abs() < 1e-9, "{kind}: {found:?}");
+        }
+    }
+    // A figure of bars alone has these.
+    let (code, _, errors) = krawl(&[
+        "solve",
+        "problems/octahedron.toml",
+        "--dxf",
+        &path("bars.dxf"),
+        "--quiet",
+    ]);
+    assert_eq!(code, Some(0), "{errors}");
+    let dxf = fs::read_to_string(path("bars.dxf")).unwrap();
+    assert_eq!(dxf.matches("\nLINE\n").count(), 4 * 12);
+}
+
 #[test]
 fn edits_and_complete_sets_have_pages_too() {
     let folder = tempfile::tempdir().unwrap();

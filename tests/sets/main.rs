@@ -11,6 +11,7 @@ mod complete_hard;
 mod complex_frames;
 mod complex_infinity;
 mod complex_solutions;
+mod digits;
 mod equations;
 mod explore;
 mod exports;

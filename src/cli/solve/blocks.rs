@@ -129,6 +129,9 @@ impl Arguments {
             text += &measures.to_table("", boxes());
             value["measures"] = measures.to_value(boxes());
         }
+        if self.many.is_wanted() {
+            text += "\nFigures found block by block are not told to more digits: `krawl all --digits` tells them.\n";
+        }
         Ok(Found {
             figures,
             first,

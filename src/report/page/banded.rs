@@ -44,6 +44,7 @@ pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
             page.shapes.push(Shape {
                 name: format!("band of {name}"),
                 kind: "plane".into(),
+                ends: None,
             });
             outlines.push(
                 corners

@@ -1,4 +1,4 @@
-//! Figures for other programs: Wavefront OBJ and XYZ.
+//! Figures for other programs: DXF, Wavefront OBJ and XYZ.
 
 use super::Page;
 use crate::places::Each as _;
@@ -29,6 +29,72 @@ impl Page {
             first += self.points.len();
         }
         out
+    }
+
+    /// The solutions as DXF (of AutoCAD's release 12), each in a layer of its name, in the coordinates of the sketch: lines between the
+    /// points that they go through, circles and arcs; of a figure without these its bars.
+    pub fn to_dxf(&self) -> String {
+        let mut out =
+            "0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\nAC1009\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n"
+                .to_owned();
+        for figure in self.figures.iter().filter(|figure| figure.class.is_some()) {
+            let plain = |c: char| {
+                if c.is_ascii_alphanumeric() {
+                    c.to_ascii_uppercase()
+                } else {
+                    '_'
+                }
+            };
+            let layer: String = figure.name.chars().map(plain).collect();
+            // Groups of a code and a number.
+            let mut entity = |kind: &str, groups: &[(u32, f64)]| {
+                let _ = write!(out, "0\n{kind}\n8\n{layer}\n");
+                for (code, number) in groups {
+                    let _ = write!(out, "{code}\n{number}\n");
+                }
+            };
+            let place = |p: usize, code: u32| {
+                (0..3).map(move |k| (code + 10 * k, figure.points[3 * p + k as usize]))
+            };
+            let mut line = |[a, b]: [usize; 2]| {
+                entity(
+                    "LINE",
+                    &place(a, 10).chain(place(b, 11)).collect::<Vec<_>>(),
+                );
+            };
+            self.shapes
+                .iter()
+                .filter_map(|shape| shape.ends)
+                .for_each(&mut line);
+            if self.shapes.is_empty() {
+                self.bars.iter().map(|bar| bar.ends).for_each(line);
+            }
+            for (shape, numbers) in self.shapes.iter().zip(&figure.outlines) {
+                let degrees = |k: usize| {
+                    let (dx, dy) = (numbers[k] - numbers[0], numbers[k + 1] - numbers[1]);
+                    dy.atan2(dx).to_degrees()
+                };
+                let middle = |radius: f64| {
+                    [
+                        (10, numbers[0]),
+                        (20, numbers[1]),
+                        (30, numbers[2]),
+                        (40, radius),
+                    ]
+                };
+                match (shape.kind.as_str(), &numbers[..]) {
+                    ("circle", &[.., radius]) => entity("CIRCLE", &middle(radius)),
+                    // Counter-clockwise from the first angle to the second.
+                    ("arc", &[.., radius]) if numbers.len() == 10 => {
+                        let (from, to) = if radius < 0.0 { (6, 3) } else { (3, 6) };
+                        let angles = [(50, degrees(from)), (51, degrees(to))];
+                        entity("ARC", &[&middle(radius.abs())[..], &angles].concat());
+                    }
+                    _ => {}
+                }
+            }
+        }
+        out + "0\nENDSEC\n0\nEOF\n"
     }
 
     /// The solutions as XYZ, one after the other. A point named `C12` or `H_a` is an atom of the element

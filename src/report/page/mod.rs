@@ -111,6 +111,9 @@ pub struct Shape {
     pub name: String,
     /// `line`, `plane`, `circle`, `sphere` or `arc`.
     pub kind: String,
+    /// Of a line through two points these: what is drawn of it for other programs.
+    #[serde(skip)]
+    pub ends: Option<[usize; 2]>,
 }
 
 /// A figure.

@@ -285,6 +285,7 @@ mod tests {
         let shape = Shape {
             name: "k".into(),
             kind: "arc".into(),
+            ends: None,
         };
         // On paper the second axis points down.
         let places = [[0.0, 0.0], [10.0, 0.0], [0.0, -10.0]];

@@ -401,6 +401,10 @@ impl<'a> Reader<'a> {
             .map(|object| Shape {
                 name: object.name.into(),
                 kind: object.kind.into(),
+                ends: match (object.kind, self.numbers(&object.points).as_deref()) {
+                    ("line", Some(&[a, b])) => Some([a, b]),
+                    _ => None,
+                },
             })
             .collect()
     }

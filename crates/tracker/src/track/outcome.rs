@@ -120,10 +120,16 @@ impl Solution {
     /// A figure by the coordinates of its points, of a problem of distances alone, that is no path's.
     #[doc(hidden)]
     pub fn placed(points: Vec<[Interval; 3]>, class: usize) -> Self {
+        Self::located(points, Vec::new(), class)
+    }
+
+    /// The same of a problem with objects.
+    #[doc(hidden)]
+    pub fn located(points: Vec<[Interval; 3]>, objects: Vec<Located>, class: usize) -> Self {
         Solution {
-            width: relative_width(&points, &[]),
+            width: relative_width(&points, &objects),
             points,
-            objects: Vec::new(),
+            objects,
             auxiliary: Vec::new(),
             class,
             place: None,

@@ -711,14 +711,8 @@ fn solutions(homotopy: &Homotopy, found: &[FigureBox]) -> Vec<Solution> {
     let figures = found.iter().enumerate();
     let figures = figures.map(|(class, figure)| {
         let points = figure.points(homotopy);
-        let all = || points.iter().flatten();
-        let size = all().fold(0.0, |max: f64, x| max.max(x.mag()));
-        let width = all().fold(0.0, |max: f64, x| max.max(x.wid())) / size.max(f64::MIN_POSITIVE);
-        Solution {
-            objects: homotopy.locate(&points, |i| figure.figure.enclosure(i)),
-            width,
-            ..Solution::placed(points, class)
-        }
+        let objects = homotopy.locate(&points, |i| figure.figure.enclosure(i));
+        Solution::located(points, objects, class)
     });
     figures.collect()
 }
