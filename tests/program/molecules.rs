@@ -60,16 +60,17 @@ fn a_molecule_keeps_its_side() {
         let one = &value["conformers"][0];
         assert!(one["rmsd"].as_f64().unwrap() < 1e-5, "{one}");
         assert_eq!(one["mirrored"], false);
-        assert!(!table.contains("reflections"), "{table}");
+        let head = table.lines().next().unwrap();
+        assert!(!head.contains("reflections"), "{table}");
         // Without its side it is listed once for both.
         let (value, table) = all(&methane(hand), &["--any-signs"]);
         assert_eq!(value["solutions"].as_array().unwrap().len(), 1, "{table}");
-        assert!(table.contains("reflections"), "{table}");
+        assert!(table.lines().next().unwrap().contains("reflections"));
         assert!(value["conformers"][0]["rmsd"].as_f64().unwrap() < 1e-5);
     }
     // Two hydrogens are the same.
     let (_, table) = all(&methane(1.0).replace("Br", "H"), &[]);
-    assert!(table.contains("reflections"), "{table}");
+    assert!(table.lines().next().unwrap().contains("reflections"));
 }
 
 /// A chain held as it is drawn, by bonds, bond angles and one torsion: of the four figures up to motions those with the side of the file

@@ -243,7 +243,7 @@ fn leave_out(problem: &Problem, indices: &[usize]) -> Problem {
 }
 
 /// What is measured of a dimension that is free.
-fn in_place(problem: &Problem, index: usize) -> Option<Quantity> {
+pub(crate) fn in_place(problem: &Problem, index: usize) -> Option<Quantity> {
     let Some(constraint) = index
         .checked_sub(problem.distances.len())
         .map(|at| &problem.constraints[at])

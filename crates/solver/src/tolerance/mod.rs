@@ -32,8 +32,8 @@
 use crate::blocks::Account;
 use crate::edit::{Limits, Setting, Within};
 use crate::interval::along::Along;
-use crate::interval::{Interval, hull, point};
-use crate::motion::lengths;
+use crate::interval::{Interval, enclose_rational, hull, point};
+use crate::motion::{in_place, lengths};
 use crate::order::InOrder;
 use crate::places::array;
 use crate::problem::{Decimal, Problem, Target};
@@ -141,7 +141,10 @@ pub fn study(
     };
     let measured = quantities
         .into_iter()
-        .map(|quantity| measure(&mut within, &quantity, control))
+        .map(|quantity| {
+            let own = own_limits(problem, limits, &quantity);
+            measure(&mut within, &quantity, own, control)
+        })
         .collect::<Result<_, _>>()?;
     Ok(Study {
         limits: limits.to_vec(),
@@ -267,9 +270,27 @@ fn scaled(problem: &Problem, limits: &[Limits], k: u32) -> Option<Vec<Limits>> {
     scaled.collect()
 }
 
+/// Between which values something measured is that is a dimension itself; anything, where it is none.
+fn own_limits(problem: &Problem, limits: &[Limits], quantity: &Quantity) -> Interval {
+    let is_it = |&index: &usize| {
+        let measured = in_place(problem, index);
+        measured.is_some_and(|other| other.is_same_measure(quantity))
+    };
+    let own = problem.dimensions().find(is_it).and_then(|index| {
+        let limits = limits.iter().find(|one| one.index == index);
+        let given = || given(problem, index).map(|x| [x.clone(), x]);
+        limits.map(|one| one.values.clone()).or_else(given)
+    });
+    own.map_or(Interval::ENTIRE, |values| {
+        let [low, high] = values.map(|x| enclose_rational(x.value()));
+        low.convex_hull(high)
+    })
+}
+
 fn measure(
     within: &mut Within,
     quantity: &Quantity,
+    own: Interval,
     control: &mut Control,
 ) -> Result<Measured, String> {
     let nominal = quantity.of(&within.figure());
@@ -283,6 +304,7 @@ fn measure(
         ));
     }
     let outer = [all.inf(), all.sup()].map(|key| quantity.of_key(point(key)));
+    let outer = [outer[0].inf().max(own.inf()), outer[1].sup().min(own.sup())];
     let (mut bounds, mut is_attained) = ([nominal; 2], [false; 2]);
     for side in [0, 1] {
         // The least value is reached where what makes it grow is at its least.
@@ -294,8 +316,8 @@ fn measure(
             quantity.of_key(quantity.key(|p| figure[p], all.mid()))
         });
         bounds[side] = match side {
-            0 => hull(outer[0].inf().min(inner.sup()), inner.sup()),
-            _ => hull(inner.inf(), outer[1].sup().max(inner.inf())),
+            0 => hull(outer[0].min(inner.sup()), inner.sup()),
+            _ => hull(inner.inf(), outer[1].max(inner.inf())),
         };
     }
     // What a key grows by is no more than a slope of the quantity itself.

@@ -46,6 +46,14 @@ pub fn with_a_name<T>(
 }
 
 impl Quantity {
+    /// Whether another one is the same length or the same angle, whatever both are called.
+    pub fn is_same_measure(&self, other: &Quantity) -> bool {
+        let is_either_way = matches!(self.what, What::Distance | What::Angle);
+        let turned = self.points.iter().rev();
+        let points = &other.points;
+        self.what == other.what && is_either_way && (self.points == *points || turned.eq(points))
+    }
+
     /// The length between two points.
     pub fn length(problem: &Problem, points: [usize; 2]) -> Self {
         Quantity {
