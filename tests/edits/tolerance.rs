@@ -208,6 +208,8 @@ fn angles_stay_what_they_are_or_within_their_limits() {
                     }
                 }
             }
+            // Of lines it is not seen that it is the constraint's angle: bounds are of second order then.
+            let more = if angles == at_points { 1e-9 } else { 0.02 };
             let outer = |of: &[krawl::interval::Interval; 2]| [of[0].inf(), of[1].sup()];
             let [low, high] = outer(&length.bounds);
             assert!(low <= least && most <= high, "{low} {least} {most} {high}");
@@ -217,7 +219,7 @@ fn angles_stay_what_they_are_or_within_their_limits() {
             );
             let [low, high] = outer(&turn.bounds);
             assert!(low <= degrees[0] && degrees[1] <= high, "{low} {high}");
-            assert!(high - low < degrees[1] - degrees[0] + 1e-9, "{low} {high}");
+            assert!(high - low < degrees[1] - degrees[0] + more, "{low} {high}");
         }
     }
     let text = "name = \"far\"\ndimension = 2\n[points]\na = [0, 0]\nb = [4, 0]\nc = [-3, 0.1]\n[constraints]\n\
