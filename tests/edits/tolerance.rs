@@ -209,7 +209,7 @@ fn angles_stay_what_they_are_or_within_their_limits() {
                 }
             }
             // Of lines it is not seen that it is the constraint's angle: bounds are of second order then.
-            let more = if angles == at_points { 1e-9 } else { 0.05 };
+            let more = if angles == at_points { 1e-9 } else { 0.15 };
             let outer = |of: &[krawl::interval::Interval; 2]| [of[0].inf(), of[1].sup()];
             let [low, high] = outer(&length.bounds);
             assert!(low <= least && most <= high, "{low} {least} {most} {high}");
