@@ -361,7 +361,7 @@ impl<'a> Reader<'a> {
                 continue;
             };
             let worded = |value: &str| match kind {
-                "angles" | "turns" => format!("{value}°"),
+                "angles" | "turns" | "torsions" => format!("{value}°"),
                 "radii" => format!("r {value}"),
                 "diameters" => format!("⌀ {value}"),
                 _ => {
@@ -380,9 +380,11 @@ impl<'a> Reader<'a> {
                 None => (before, None),
             };
             let mut points: Vec<usize> = items.iter().flat_map(points_of).collect();
-            // Of three points the angle is at the second.
-            if let ("angles" | "turns", &[_, vertex, _]) = (kind, &points[..]) {
-                points = vec![vertex];
+            // Of three points the angle is at the second, of four the torsion about the bar between the middle ones.
+            match (kind, &points[..]) {
+                ("angles" | "turns", &[_, vertex, _]) => points = vec![vertex],
+                ("torsions", &[_, b, c, _]) => points = vec![b, c],
+                _ => {}
             }
             if !points.is_empty() {
                 labels.push(Label { text, was, points });
