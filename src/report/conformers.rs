@@ -40,7 +40,8 @@ pub fn conformers_to_table(problem: &Problem, of: &Skeleton, all: &[Conformer]) 
             None => ["", "", ""].map(str::to_owned),
         });
         let torsions = one.torsions.iter().take(COLUMNS);
-        row.extend(torsions.map(|degrees| format!("{degrees:.1}")));
+        // Without a sign of zero.
+        row.extend(torsions.map(|degrees| format!("{:.1}", (10.0 * degrees).round() / 10.0 + 0.0)));
         grid.push(row);
     }
     let more = match torsions.len() > COLUMNS {

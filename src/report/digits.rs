@@ -34,10 +34,13 @@ pub fn digits_to_table(problem: &Problem, all: &[Result<Digits, String>]) -> Str
     out
 }
 
-/// The same for JSON: of each solution its points and numbers by name, as texts, or `null`.
+/// The same for JSON: of each solution its points and numbers by name, as texts, or why it is not told.
 pub fn digits_to_value(problem: &Problem, all: &[Result<Digits, String>]) -> Value {
     let each = all.iter().map(|one| {
-        let found = one.as_ref().ok()?;
+        let found = match one {
+            Ok(found) => found,
+            Err(why) => return json!({"reason": why}),
+        };
         let points = problem.points.iter().zip(&found.points);
         let points: Map<String, Value> = points
             .map(|(point, at)| (point.name.clone(), json!(at)))
@@ -46,7 +49,7 @@ pub fn digits_to_value(problem: &Problem, all: &[Result<Digits, String>]) -> Val
         let numbers: Map<String, Value> = numbers
             .map(|(name, number)| (name.clone(), json!(number)))
             .collect();
-        Some(json!({"points": points, "numbers": numbers}))
+        json!({"points": points, "numbers": numbers})
     });
     each.collect()
 }

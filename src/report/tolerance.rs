@@ -43,11 +43,19 @@ fn write_measured(
     measured: &Measured,
 ) -> std::fmt::Result {
     let [low, high] = measured.bounds;
+    let digits = certain_digits(measured.nominal);
+    if measured.is_given {
+        return writeln!(
+            out,
+            "\n{} is {digits}, a dimension without a tolerance",
+            measured.name
+        );
+    }
     writeln!(
         out,
         "\n{} is {}; at worst from {} to {}{}; root of the sum of the squares ±{}",
         measured.name,
-        certain_digits(measured.nominal),
+        digits,
         rounded(low.inf(), f64::floor),
         rounded(high.sup(), f64::ceil),
         match (measured.is_attained, measured.gap()) {

@@ -33,6 +33,16 @@ fn angle(u: Vector, v: Vector) -> f64 {
 fn turn(u: Vector, v: Vector) -> f64 {
     cross(u, v)[2].atan2(dot(u, v)).to_degrees()
 }
+/// Of the half planes at the line from b to c through a and through d, measured across that line.
+fn torsion(a: Vector, b: Vector, c: Vector, d: Vector) -> f64 {
+    let axis = minus(c, b).map(|x| x / apart(b, c));
+    let across = |v: Vector| {
+        let along = dot(v, axis);
+        std::array::from_fn(|k| v[k] - along * axis[k])
+    };
+    let (from, to) = (across(minus(a, b)), across(minus(d, c)));
+    dot(axis, cross(from, to)).atan2(dot(from, to)).to_degrees()
+}
 fn off_line(p: Vector, a: Vector, b: Vector) -> f64 {
     size(cross(minus(b, a), minus(p, a))) / apart(a, b)
 }
@@ -243,6 +253,14 @@ fn cases() -> Vec<Case> {
                 turn(minus(b, p), minus(d, c))
             })
         },
+        Case {
+            dimensions: space,
+            ..case(
+                "torsions",
+                "\"p\", \"b\", \"c\", \"d\"",
+                |[_, b, c, d, p, _]| torsion(p, b, c, d),
+            )
+        },
         flat("angles", "\"l\", \"e\"", |[_, b, c, d, p, _]| {
             slope(p, b, [b, c, d])
         }),
@@ -383,7 +401,7 @@ fn come_to_limits(case: &Case, dimension: usize, random: &mut Random, wanted: us
                 random.between(0.1, 89.9)
             }
             "angles" => random.between(1.0, 179.0),
-            "turns" => from + random.between(-450.0, 450.0),
+            "turns" | "torsions" => from + random.between(-450.0, 450.0),
             "x" | "y" | "z" | "dx" | "dy" | "dz" | "along" | "differences" => {
                 from + random.between(-4.0, 4.0)
             }
@@ -404,7 +422,7 @@ fn come_to_limits(case: &Case, dimension: usize, random: &mut Random, wanted: us
         let (is, said) = ((case.is)(at), edited.dimensions[0].value);
         // Turns are told up to whole ones.
         let is = match case.kind {
-            "turns" => is + 360.0 * ((said.mid() - is) / 360.0).round(),
+            "turns" | "torsions" => is + 360.0 * ((said.mid() - is) / 360.0).round(),
             _ => is,
         };
         let room = 1e-8 * is.abs().max(1.0);

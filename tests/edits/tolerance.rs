@@ -229,6 +229,37 @@ fn angles_stay_what_they_are_or_within_their_limits() {
     assert!(wrong.contains("between 0 and 180 degrees"), "{wrong}");
 }
 
+/// Turns and torsions without limits stay what they are, as many whole turns away as they are measured.
+#[test]
+fn turns_and_torsions_stay_what_they_are() {
+    let plane = "name = \"turn\"\ndimension = 2\n[points]\na = [0, 0]\nb = [4, 0]\nc = [0.5, 3]\n[constraints]\n\
+                 distances = [[\"a\", \"b\", 4], [\"a\", \"c\", 3]]\nturns = [[\"b\", \"a\", \"c\", 440]]\n";
+    let space = "name = \"torsion\"\ndimension = 3\n[points]\na = [0, 0, 0]\nb = [1.5, 0, 0]\nc = [2.1, 1.4, 0]\nd = [3, 1.6, 1]\n\
+                 [constraints]\ndistances = [[\"a\", \"b\", 1.5], [\"b\", \"c\", 1.5], [\"c\", \"d\", 1.5]]\n\
+                 angles = [[\"a\", \"b\", \"c\", 110], [\"b\", \"c\", \"d\", 110]]\n\
+                 torsions = [[\"a\", \"b\", \"c\", \"d\", 270]]\n";
+    for (text, measure, value) in [
+        (plane, "turn b a c", 80.0),
+        (space, "torsion a b c d", -90.0),
+        (space, "torsion d c b a", -90.0),
+        (space, "angle c b a", 110.0),
+    ] {
+        let problem = Problem::parse(text, "stays.toml").unwrap();
+        let length = if text == plane { 3.0 } else { 1.5 };
+        let within = Limits {
+            index: 1,
+            values: [decimal(length - 0.01), decimal(length + 0.01)],
+        };
+        let study = run(&problem, &[within], &[measure]).unwrap();
+        let measured = &study.measured[0];
+        assert!(measured.is_given, "{measure}");
+        for bound in measured.bounds {
+            assert!((bound.mid() - value).abs() < 1e-9, "{measure}: {bound:?}");
+        }
+        assert!(measured.effects.iter().all(|&effect| effect == 0.0));
+    }
+}
+
 #[test]
 fn what_is_not_proved_or_makes_no_sense_is_said() {
     let problem = Problem::read("docs/examples/plate.toml").unwrap();

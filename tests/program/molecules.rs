@@ -100,4 +100,16 @@ fn a_hydrogen_that_is_not_in_the_file_counts() {
     );
 }
 
+/// About what is straight nothing turns.
+#[test]
+fn a_straight_part_has_no_torsion() {
+    let (value, _) = all(
+        "5\nalkyne\nO 1.9 1.2 0.3\nC 1.46 0 0\nC 0 0 0\nC -1.2 0 0\nC -2.66 0 0\n",
+        &[],
+    );
+    for one in value["conformers"].as_array().unwrap() {
+        assert_eq!(one["torsions"], serde_json::json!([]));
+    }
+}
+
 const TORSION: f64 = 176.3743;

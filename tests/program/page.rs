@@ -358,6 +358,26 @@ fn figures_are_written_as_dxf() {
             assert!((found.1 - expected.1).abs() < 1e-9, "{kind}: {found:?}");
         }
     }
+    // Sets have circles in them, too.
+    let text = text.replace("angles", "fixed = [\"o\"]\nangles");
+    let text = text
+        .replace("fixed = [\"a\"]\n", "")
+        .replace("x = [[\"o\", 30]]\ny = [[\"o\", 10]]\n", "");
+    let text = text.replace("fixed = [\"o\"]", "fixed = [\"o\", \"a\"]");
+    fs::write(path("set.toml"), text).unwrap();
+    let (code, _, errors) = krawl(&[
+        "all",
+        &path("set.toml"),
+        "--dxf",
+        &path("set.dxf"),
+        "--quiet",
+    ]);
+    assert_eq!(code, Some(0), "{errors}");
+    assert!(
+        fs::read_to_string(path("set.dxf"))
+            .unwrap()
+            .contains("\nCIRCLE\n")
+    );
     // A figure of bars alone has these.
     let (code, _, errors) = krawl(&[
         "solve",

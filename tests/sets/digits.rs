@@ -107,3 +107,48 @@ fn near_double_roots() {
         assert!(!is_told || result.solutions.len() == 2);
     }
 }
+
+/// Numbers far smaller than others have all their digits, and what is exact lies in boxes that are exact.
+#[test]
+fn small_numbers_and_exact_ones() {
+    let text = "name = \"small\"\ndimension = 2\n[unknowns]\nx = 0.3\ny = 1.4\n[constraints]\n\
+                equations = [\"3000000000000000000000*x = 1\", \"y^2 = 2\"]\n";
+    let problem = Problem::parse(text, "small.toml").unwrap();
+    let result = all(&problem, &Options::default()).unwrap();
+    assert!(!result.solutions.is_empty());
+    for solution in &result.solutions {
+        for digits in [1, 30, 60] {
+            let found = to_digits(&problem, &solution.points, &solution.objects, digits).unwrap();
+            let expected = format!("0.{}{}", "0".repeat(21), "3".repeat(digits as usize));
+            assert_eq!(found.numbers[0].1, expected);
+        }
+    }
+    for file in [
+        "problems/mechanisms/four-bar.toml",
+        "problems/octahedron.toml",
+    ] {
+        let problem = Problem::read(file).unwrap();
+        let result = all(&problem, &Options::default()).unwrap();
+        let mut seen = problem.clone();
+        seen.homotopy.reference.clone_from(&result.reference);
+        assert!(!result.solutions.is_empty());
+        for solution in &result.solutions {
+            for digits in [1, 4, 50] {
+                to_digits(&seen, &solution.points, &solution.objects, digits).unwrap();
+            }
+        }
+    }
+}
+
+/// A rectangle with a constraint too many: nothing is told, as its equations are not as many as its unknowns.
+#[test]
+fn what_was_left_out_is_no_square_system() {
+    let text = "name = \"box\"\ndimension = 2\n[points]\na = [0, 0]\nb = [4, 0]\nc = [4, 3]\n[constraints]\nfixed = [\"a\"]\n\
+                horizontal = [[\"a\", \"b\"]]\ndistances = [[\"a\", \"b\", 4], [\"b\", \"c\", 3], [\"a\", \"c\", 5]]\n\
+                angles = [[\"a\", \"b\", \"c\", 90]]\n";
+    let problem = Problem::parse_loosely(text, "box.toml").unwrap();
+    let result = all(&problem, &Options::default()).unwrap();
+    let solution = &result.solutions[0];
+    let why = to_digits(&problem, &solution.points, &solution.objects, 20).unwrap_err();
+    assert!(why.contains("not as many equations"), "{why}");
+}

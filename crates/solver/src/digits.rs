@@ -19,14 +19,19 @@
 //! ```
 
 use crate::elimination::invert;
-use crate::interval::{Interval, enclose_rational, point};
+use crate::interval::{Ball, Interval, enclose_rational, point};
 use crate::problem::{Decimal, Problem, Shape};
 use crate::rational::Rational;
 use crate::system::{Homotopy, Located};
 use num_bigint::BigInt;
+use std::collections::BTreeSet;
 
 /// More digits are not told: right-hand sides that are no ratios are known to some more.
 pub const MOST_DIGITS: u32 = 60;
+/// Unknowns are known to 2 to minus this at least, so that what is found lies in the solution's box.
+const LEAST_BITS: i64 = 160;
+/// No more are tried, for numbers that are small.
+const MOST_BITS: i64 = 3000;
 /// Newton's method takes no more steps: it gains some digits in each.
 const STEPS: usize = 40;
 
@@ -50,23 +55,35 @@ pub fn to_digits(
     objects: &[Located],
     digits: u32,
 ) -> Result<Digits, String> {
-    let homotopy = Homotopy::new(problem).map_err(|error| error.to_string())?;
-    let drawn = drawn(problem, points, objects)?;
-    let drawn = Homotopy::new(&drawn).map_err(|error| error.to_string())?;
+    let square = |problem: &Problem| {
+        match problem.check() {
+        Ok(()) => Homotopy::new(problem).map_err(|error| error.to_string()),
+        Err(_) => Err("there are not as many equations as unknowns there: constraints were left out of the search".to_owned()),
+    }
+    };
+    let homotopy = square(problem)?;
+    let drawn = square(&drawn(problem, points, objects)?)?;
     if drawn.equations != homotopy.equations {
         return Err("the solution is a special figure, with other equations".to_owned());
     }
     let near: Vec<f64> = drawn.sketch_of_unknowns().map(|x| x.mid()).collect();
-    let dependent = || "the equations are nearly dependent there".to_owned();
-    let (x, radius) = refined(&homotopy, near, digits).ok_or_else(dependent)?;
-    let enclosed = |i: usize| around(&x[i], &radius);
-    let unit = Rational::from_float(homotopy.unit).expect("a power of two");
-    let scaled = |i: usize, value: &Rational| value * &unit.pow(homotopy.power(i));
+    let mut numbers = Vec::new();
+    for (object, located) in objects.iter().enumerate() {
+        let name = &problem.objects[object].name;
+        // A radius is the first unknown of its circle.
+        if let (Some(known), Some(i)) = (located.number(), homotopy.object_unknowns(object).next())
+        {
+            numbers.push((name, i, known));
+        }
+    }
+    let told = numbers.iter().map(|&(_, i, _)| i);
+    let (x, behind) = to_all_digits(&homotopy, near, told, digits)?;
     // The box of the solution holds it.
     let is_in = |i: usize, known: Interval| {
-        let ends = [&x[i] - &radius, &x[i] + &radius].map(|end| scaled(i, &end));
         let [low, high] = [known.inf(), known.sup()].map(Rational::from_float);
-        low.is_none_or(|low| low <= ends[0]) && high.is_none_or(|high| ends[1] <= high)
+        let Ball { middle, radius } = &x[i];
+        low.is_none_or(|low| low <= middle - radius)
+            && high.is_none_or(|high| middle + radius <= high)
     };
     let coordinates = points.iter().enumerate();
     let mut coordinates =
@@ -75,28 +92,19 @@ pub fn to_digits(
         Some(i) => is_in(i, known),
         None => known.contains(0.0),
     });
-    let mut numbers = Vec::new();
-    for (object, located) in objects.iter().enumerate() {
-        let (Some(known), name) = (located.number(), &problem.objects[object].name) else {
-            continue;
-        };
-        if let Some(i) = homotopy.object_unknowns(object).next() {
-            numbers.push((name, i, known));
-        }
-    }
     if !are_in || !numbers.iter().all(|&(_, i, known)| is_in(i, known)) {
-        return Err("the figure found is not within the solution's box".to_owned());
+        return Err("it is not proved that the figure found lies in the solution's box, which is narrower than what is known of it, or holds \
+                    another one".to_owned());
     }
+    let enclosed = |i: usize| {
+        let Ball { middle, radius } = &x[i];
+        let both = [middle - radius, middle + radius].map(|end| enclose_rational(&end));
+        both[0].convex_hull(both[1]) * point(homotopy.unit.powi(-homotopy.power(i)))
+    };
     if !homotopy.is_proper_over(enclosed) {
         return Err("a length or a vector may vanish there".to_owned());
     }
-    let zero = Rational::zero;
-    let value = |i: usize| scaled(i, &x[i]);
-    let largest = (0..homotopy.points)
-        .flat_map(|p| homotopy.place(p, value))
-        .map(|x| x.abs())
-        .fold(zero(), |a, b| if a < b { b } else { a });
-    let behind = digits as i32 - places(&largest);
+    let value = |i: usize| x[i].middle.clone();
     let of_point = |p: usize| {
         let all = homotopy.place(p, value).into_iter().take(problem.dimension);
         all.map(|x| written(&x, behind)).collect()
@@ -111,6 +119,51 @@ pub fn to_digits(
             })
             .collect(),
     })
+}
+
+/// All unknowns in the unit of the problem, so well known that the decimals that are told of coordinates, and of the numbers that are
+/// told by themselves, are off by at most 1 in their last digits; and how many of these coordinates have behind the point.
+fn to_all_digits(
+    homotopy: &Homotopy,
+    near: Vec<f64>,
+    told: impl Iterator<Item = usize> + Clone,
+    digits: u32,
+) -> Result<(Vec<Ball>, i32), String> {
+    let unit = Rational::from_float(homotopy.unit).expect("a power of two");
+    let ten = Rational::from_integer(10.into());
+    let mut bits = LEAST_BITS.max(i64::from(digits) * 10 / 3 + 40);
+    loop {
+        let found =
+            refined(homotopy, &near, bits).ok_or("the equations are nearly dependent there")?;
+        let scaled = found.into_iter().enumerate().map(|(i, x)| {
+            let unit = unit.pow(homotopy.power(i));
+            Ball {
+                middle: x.middle * &unit,
+                radius: x.radius * &unit,
+            }
+        });
+        let x: Vec<Ball> = scaled.collect();
+        let coordinates =
+            (0..homotopy.equations).filter(|i| !homotopy.auxiliary_unknowns().contains(i));
+        let largest = coordinates.clone().map(|i| x[i].middle.abs());
+        let largest = largest.fold(Rational::zero(), |a, b| if a < b { b } else { a });
+        let behind = digits as i32 - places(&largest);
+        // A decimal is off by half a unit of its last digit, and the ratio by no more.
+        let half = |behind: i32| Rational::new(1.into(), 2.into()) * ten.pow(-behind.max(0));
+        let is_known = |i: usize, behind: i32| x[i].radius <= half(behind);
+        let own = |i: usize| digits as i32 - places(&x[i].middle.abs());
+        let is_zero = |i: usize| x[i].middle.is_zero() && !x[i].radius.is_zero();
+        let mut told = told.clone();
+        if coordinates.clone().all(|i| is_known(i, behind))
+            && told.all(|i| !is_zero(i) && is_known(i, own(i)))
+        {
+            return Ok((x, behind));
+        }
+        bits *= 2;
+        if bits > MOST_BITS {
+            return Err("it is not known to so many digits".to_owned());
+        }
+    }
 }
 
 /// The problem drawn as a solution, for where its unknowns are about.
@@ -145,9 +198,9 @@ fn drawn(
     Ok(drawn)
 }
 
-/// A zero of the equations at t = 1 near some numbers, in the homotopy's unit, and how far each of its unknowns is from the exact one at most:
-/// exactly one zero is as near as that. `None`: that is not proved, or not to so many digits.
-fn refined(homotopy: &Homotopy, near: Vec<f64>, digits: u32) -> Option<(Vec<Rational>, Rational)> {
+/// A zero of the equations at t = 1 near some numbers, in the homotopy's unit, each unknown known to about 2 to minus `bits`: exactly one zero
+/// is as near as that. `None`: that is not proved, or not so well.
+fn refined(homotopy: &Homotopy, near: &[f64], bits: i64) -> Option<Vec<Ball>> {
     let m = homotopy.equations;
     let terms: Vec<_> = (0..m).map(|e| homotopy.terms(e)).collect();
     let rights: Vec<_> = homotopy
@@ -163,25 +216,24 @@ fn refined(homotopy: &Homotopy, near: Vec<f64>, digits: u32) -> Option<(Vec<Rati
     if !invert(&mut inverse, m) || inverse.iter().any(|x| !x.is_finite()) {
         return None;
     }
-    // Digits of unknowns that are about 1, and some more, for numbers that are small.
-    let bits = i64::from(digits) * 10 / 3 + 40;
     let mut x: Vec<Rational> = near
         .iter()
         .filter_map(|&x| Rational::from_float(x))
         .collect();
-    // The step −Y F(x), and how far right-hand sides that are no ratios leave it open.
-    let step = |x: &[Rational]| -> Vec<(Rational, Rational)> {
+    // F(x), and the step −Y F(x) with how far right-hand sides that are no ratios leave it open.
+    let missed = |x: &[Rational]| -> Vec<Rational> {
         let at = |entry: Option<usize>| entry.map_or_else(Rational::zero, |i| x[i].clone());
         let half = Rational::new(1.into(), 2.into());
-        let missed: Vec<Rational> = (0..m)
-            .map(|e| {
-                let products = terms[e].iter();
-                let doubled = products.fold(Rational::zero(), |sum, p| {
-                    sum + Rational::from_integer(p.factor.into()) * p.value(at)
-                });
-                doubled * &half - &rights[e].middle
-            })
-            .collect();
+        let of = |e: usize| {
+            let products = terms[e].iter();
+            let doubled = products.fold(Rational::zero(), |sum, p| {
+                sum + Rational::from_integer(p.factor.into()) * p.value(at)
+            });
+            doubled * &half - &rights[e].middle
+        };
+        (0..m).map(of).collect()
+    };
+    let step = |missed: &[Rational]| -> Vec<(Rational, Rational)> {
         let row = |i: usize| {
             let mut sum = (Rational::zero(), Rational::zero());
             for e in 0..m {
@@ -198,7 +250,7 @@ fn refined(homotopy: &Homotopy, near: Vec<f64>, digits: u32) -> Option<(Vec<Rati
         let sizes = steps.iter().map(|(step, open)| step.abs() + open);
         sizes.fold(Rational::zero(), |a, b| if a < b { b } else { a })
     };
-    let mut steps = step(&x);
+    let mut steps = step(&missed(&x));
     for _ in 0..STEPS {
         if greatest(&steps) <= least {
             break;
@@ -206,7 +258,7 @@ fn refined(homotopy: &Homotopy, near: Vec<f64>, digits: u32) -> Option<(Vec<Rati
         for (x, (step, _)) in x.iter_mut().zip(&steps) {
             *x = (&*x + step).shifted(bits + 8).round().shifted(-bits - 8);
         }
-        steps = step(&x);
+        steps = step(&missed(&x));
     }
     // What F(x) leaves takes up half of the radius, and (I − Y F'(X)) (X − x) has to be less than the other half.
     let radius = Rational::from_integer(2.into()) * greatest(&steps) + &least;
@@ -222,7 +274,30 @@ fn refined(homotopy: &Homotopy, near: Vec<f64>, digits: u32) -> Option<(Vec<Rati
         });
         all.fold(point(0.0), |sum, x| sum + x).sup() < 0.5
     });
-    is_contracted.then_some((x, radius))
+    if !is_contracted {
+        return None;
+    }
+    // What meets all equations exactly is the zero, and so is a number that alone meets an equation, of which it is the only one so near.
+    let missed = missed(&x);
+    let is_met = |e: usize| missed[e].is_zero() && rights[e].radius.is_zero();
+    let is_zero = (0..m).all(is_met);
+    let alone: BTreeSet<usize> = (0..m)
+        .filter(|&e| is_met(e))
+        .filter_map(|e| {
+            let entries = terms[e].iter().flat_map(|p| p.entries()).flatten();
+            let own: BTreeSet<usize> = entries.collect();
+            let &i = own.first()?;
+            (own.len() == 1 && !jacobian[e][i].contains(0.0)).then_some(i)
+        })
+        .collect();
+    let balls = x.into_iter().enumerate().map(|(i, middle)| Ball {
+        middle,
+        radius: match is_zero || alone.contains(&i) {
+            true => Rational::zero(),
+            false => radius.clone(),
+        },
+    });
+    Some(balls.collect())
 }
 
 /// All numbers as near to one as that.

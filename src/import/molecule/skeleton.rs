@@ -31,6 +31,8 @@ pub struct Conformer {
     pub contact: Option<([usize; 2], f64, f64)>,
 }
 
+/// Bonds go straight on where the sine of the angle is less than this.
+const STRAIGHT: f64 = 0.1;
 /// Van der Waals radii in ångström (Bondi, J. Phys. Chem. 68, 1964; of hydrogen as there).
 const VAN_DER_WAALS: [(&str, f64); 15] = [
     ("H", 1.20),
@@ -61,7 +63,7 @@ impl Skeleton {
     }
 
     /// Four atoms in a row for each bond about which something turns: of a bond in a ring those of the smallest ring, otherwise heavy
-    /// ones first. What turns hydrogens of carbon alone is left out.
+    /// ones first. What turns hydrogens of carbon alone is left out, and a bond on a straight part, about which nothing turns.
     pub fn torsions(&self) -> Vec<[usize; 4]> {
         let near = neighbours(self.places.len(), &self.bonds);
         let is_hydrogen = |a: usize| self.elements[a] == "H";
@@ -81,7 +83,13 @@ impl Skeleton {
             let turns_hydrogens =
                 |end: usize, at: usize| is_hydrogen(end) && self.elements[at] == "C";
             let [a, d] = best;
-            (!turns_hydrogens(a, b) && !turns_hydrogens(d, c)).then_some([a, b, c, d])
+            let is_bent = |ends: [usize; 3]| {
+                let [p, q, r] = ends.map(|a| self.places[a]);
+                let (one, other) = (minus(p, q), minus(r, q));
+                length(cross(one, other)) > STRAIGHT * length(one) * length(other)
+            };
+            let is_one = is_bent([a, b, c]) && is_bent([b, c, d]);
+            (is_one && !turns_hydrogens(a, b) && !turns_hydrogens(d, c)).then_some([a, b, c, d])
         };
         self.bonds.iter().filter_map(of).collect()
     }

@@ -4,7 +4,6 @@
 use super::reader::{Reader, ShowError, list, text, wrong};
 use super::{Figure, Page, Text, Tone};
 use crate::blocks::rounded_up;
-use serde_json::Value;
 
 pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
     let result = reader.result;
@@ -15,7 +14,7 @@ pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
             name: format!("Solution {}", k + 1),
             note: format!("known up to {} of its size", rounded_up(width)),
             class: Some(k),
-            ..reader.figure(&solution["points"], &Value::Null, "solutions")?
+            ..reader.figure(&solution["points"], &solution["objects"], "solutions")?
         });
     }
     page.rate(match text(result, "status")? {

@@ -37,6 +37,9 @@ impl Page {
         let mut out =
             "0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\nAC1009\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n"
                 .to_owned();
+        let mut shapes = self.shapes.iter();
+        let is_drawn = shapes
+            .any(|shape| shape.ends.is_some() || matches!(shape.kind.as_str(), "circle" | "arc"));
         for figure in self.figures.iter().filter(|figure| figure.class.is_some()) {
             let plain = |c: char| {
                 if c.is_ascii_alphanumeric() {
@@ -45,7 +48,8 @@ impl Page {
                     '_'
                 }
             };
-            let layer: String = figure.name.chars().map(plain).collect();
+            // Names of layers have 31 characters at most.
+            let layer: String = figure.name.chars().map(plain).take(31).collect();
             // Groups of a code and a number.
             let mut entity = |kind: &str, groups: &[(u32, f64)]| {
                 let _ = write!(out, "0\n{kind}\n8\n{layer}\n");
@@ -66,7 +70,7 @@ impl Page {
                 .iter()
                 .filter_map(|shape| shape.ends)
                 .for_each(&mut line);
-            if self.shapes.is_empty() {
+            if !is_drawn {
                 self.bars.iter().map(|bar| bar.ends).for_each(line);
             }
             for (shape, numbers) in self.shapes.iter().zip(&figure.outlines) {
@@ -83,7 +87,7 @@ impl Page {
                     ]
                 };
                 match (shape.kind.as_str(), &numbers[..]) {
-                    ("circle", &[.., radius]) => entity("CIRCLE", &middle(radius)),
+                    ("circle", &[_, _, _, radius]) => entity("CIRCLE", &middle(radius)),
                     // Counter-clockwise from the first angle to the second.
                     ("arc", &[.., radius]) if numbers.len() == 10 => {
                         let (from, to) = if radius < 0.0 { (6, 3) } else { (3, 6) };

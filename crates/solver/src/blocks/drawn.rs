@@ -151,12 +151,14 @@ pub(crate) fn look(
 }
 
 impl Row {
-    /// The length of the gradient of the left-hand side at a place.
-    pub(crate) fn steepness(&self, at: &[f64]) -> f64 {
+    /// The largest derivative of the left-hand side at a place, and the length of its gradient.
+    pub(crate) fn steepness(&self, at: &[f64]) -> (f64, f64) {
         let mut slopes: BTreeMap<usize, f64> = BTreeMap::new();
         self.evaluate(at, |u, slope| *slopes.entry(u).or_default() += slope);
+        let steepest = slopes.values().fold(0.0, |max: f64, s| max.max(s.abs()));
         let squares: f64 = slopes.values().map(|slope| slope * slope).sum();
-        squares.sqrt().max(f64::MIN_POSITIVE)
+        let least = f64::MIN_POSITIVE;
+        (steepest.max(least), squares.sqrt().max(least))
     }
 
     /// The value of the left-hand side at a place, and its derivatives, one by one.

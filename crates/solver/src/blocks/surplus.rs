@@ -136,7 +136,7 @@ pub fn surplus(problem: &Problem) -> Result<Census, String> {
     // How much the right-hand side of an equation grows with its number, and by how much it may be off by the number's last digit.
     let steepness = |row: usize| match distance(&problem, owners[row]) {
         Some(length) => 2.0 * length,
-        None => system.rows[row].steepness(&at) * scale(row) / unit,
+        None => system.rows[row].steepness(&at).0 * scale(row) / unit,
     };
     let slack = |row: usize| steepness(row) * digits_of(&problem, owners[row]);
     let mut found: BTreeMap<usize, (Surplus, usize)> = BTreeMap::new();
@@ -171,7 +171,7 @@ pub fn surplus(problem: &Problem) -> Result<Census, String> {
         let (identity, rounded, circuit) = match proved {
             Some((holds, off, rounded, made_of)) => (Some((holds, off)), rounded, made_of),
             None => {
-                let steep = |k: usize| system.rows[k].steepness(&at) * scale(k);
+                let steep = |k: usize| system.rows[k].steepness(&at).1 * scale(k);
                 let of = |&(k, part): &(usize, f64)| part.abs() * slack(k) / steep(k);
                 let rounded = circuit.iter().map(of).sum::<f64>() * steep(row);
                 (None, rounded, rows)

@@ -69,6 +69,8 @@ pub struct Measured {
     pub bounds: [Interval; 2],
     /// Whether it does: the path to that corner was proved. Otherwise the inner end is the nominal value's.
     pub is_attained: [bool; 2],
+    /// Whether it is a dimension that has no limits.
+    pub is_given: bool,
     /// The root of the sum of the squares of half of each dimension's effect: a tolerance if the dimensions are independent and lie in their
     /// limits evenly or in a bell. To first order, in floats.
     pub root_of_squares: f64,
@@ -142,7 +144,8 @@ pub fn study(
     let measured = quantities
         .into_iter()
         .map(|quantity| {
-            let own = own_limits(problem, limits, &quantity);
+            let near = quantity.of(&within.figure()).mid();
+            let own = own_limits(problem, limits, &quantity, near);
             measure(&mut within, &quantity, own, control)
         })
         .collect::<Result<_, _>>()?;
@@ -270,27 +273,38 @@ fn scaled(problem: &Problem, limits: &[Limits], k: u32) -> Option<Vec<Limits>> {
     scaled.collect()
 }
 
-/// Between which values something measured is that is a dimension itself; anything, where it is none.
-fn own_limits(problem: &Problem, limits: &[Limits], quantity: &Quantity) -> Interval {
+/// Between which values something measured is that is a dimension itself, of turns and torsions as many whole turns away as is measured
+/// (`near`); `None`: it is no dimension, or its value is a square.
+fn own_limits(
+    problem: &Problem,
+    limits: &[Limits],
+    quantity: &Quantity,
+    near: f64,
+) -> Option<[Interval; 2]> {
     let is_it = |&index: &usize| {
         let measured = in_place(problem, index);
         measured.is_some_and(|other| other.is_same_measure(quantity))
     };
-    let own = problem.dimensions().find(is_it).and_then(|index| {
-        let limits = limits.iter().find(|one| one.index == index);
-        let given = || given(problem, index).map(|x| [x.clone(), x]);
-        limits.map(|one| one.values.clone()).or_else(given)
-    });
-    own.map_or(Interval::ENTIRE, |values| {
-        let [low, high] = values.map(|x| enclose_rational(x.value()));
-        low.convex_hull(high)
-    })
+    let index = problem.dimensions().find(is_it)?;
+    let limits = limits.iter().find(|one| one.index == index);
+    let values = match limits {
+        Some(one) => one.values.clone(),
+        None => {
+            let given = given(problem, index)?;
+            [given.clone(), given]
+        }
+    };
+    let turns = match quantity.is_in_degrees() {
+        true => 360.0 * ((near - values[0].to_f64()) / 360.0).round(),
+        false => 0.0,
+    };
+    Some(values.map(|x| enclose_rational(x.value()) + point(turns)))
 }
 
 fn measure(
     within: &mut Within,
     quantity: &Quantity,
-    own: Interval,
+    own: Option<[Interval; 2]>,
     control: &mut Control,
 ) -> Result<Measured, String> {
     let nominal = quantity.of(&within.figure());
@@ -304,7 +318,10 @@ fn measure(
         ));
     }
     let outer = [all.inf(), all.sup()].map(|key| quantity.of_key(point(key)));
-    let outer = [outer[0].inf().max(own.inf()), outer[1].sup().min(own.sup())];
+    let mut outer = [outer[0].inf(), outer[1].sup()];
+    if let Some([low, high]) = own {
+        outer = [outer[0].max(low.inf()), outer[1].min(high.sup())];
+    }
     let (mut bounds, mut is_attained) = ([nominal; 2], [false; 2]);
     for side in [0, 1] {
         // The least value is reached where what makes it grow is at its least.
@@ -322,7 +339,11 @@ fn measure(
     }
     // What a key grows by is no more than a slope of the quantity itself.
     let scale = slope_of_key(quantity, middle.mid());
-    let effects: Vec<f64> = effects.iter().map(|effect| effect * scale).collect();
+    let mut effects: Vec<f64> = effects.iter().map(|effect| effect * scale).collect();
+    let is_given = own.is_some_and(|[low, high]| low == high);
+    if is_given {
+        effects.fill(0.0);
+    }
     let squares: f64 = effects.iter().map(|effect| (0.5 * effect).powi(2)).sum();
     Ok(Measured {
         name: quantity.name.clone(),
@@ -330,6 +351,7 @@ fn measure(
         nominal,
         bounds,
         is_attained,
+        is_given,
         root_of_squares: squares.sqrt(),
         effects,
     })

@@ -46,12 +46,12 @@ pub fn with_a_name<T>(
 }
 
 impl Quantity {
-    /// Whether another one is the same length or the same angle, whatever both are called.
+    /// Whether another one is the same length, angle, turn or torsion, whatever both are called.
     pub fn is_same_measure(&self, other: &Quantity) -> bool {
-        let is_either_way = matches!(self.what, What::Distance | What::Angle);
+        let is_either_way = matches!(self.what, What::Distance | What::Angle | What::Torsion);
         let turned = self.points.iter().rev();
-        let points = &other.points;
-        self.what == other.what && is_either_way && (self.points == *points || turned.eq(points))
+        self.what == other.what
+            && (self.points == other.points || is_either_way && turned.eq(&other.points))
     }
 
     /// The length between two points.

@@ -59,11 +59,13 @@ impl<Y: Preconditioner> Record<Y> {
 
     /// To be called after each step. The error: all steps are taken, or the run is to end.
     pub fn go_on(&self, t: f64, options: &Options, control: &mut Control) -> Result<(), Stop> {
-        let place = self.place(t);
+        // No step makes words, and so allocates.
+        let place = || self.place(t);
         if self.steps >= options.max_steps {
             let words = format!(
-                "the limit of {} steps was reached {place}",
-                options.max_steps
+                "the limit of {} steps was reached {}",
+                options.max_steps,
+                place()
             );
             return Err(Stop::new(StopKind::Limit, words));
         }
@@ -76,7 +78,7 @@ impl<Y: Preconditioner> Record<Y> {
         match control.is_cancelled(progress) {
             true => Err(Stop::new(
                 StopKind::Interrupted,
-                format!("interrupted {place}"),
+                format!("interrupted {}", place()),
             )),
             false => Ok(()),
         }
