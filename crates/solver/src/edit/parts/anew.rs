@@ -9,15 +9,15 @@
 //! misses it by to its number.
 
 use super::left_out::at_rest_all;
-use super::{End, Followers, MOST_TUBES, Parts};
+use super::{Followers, MOST_TUBES, Parts};
 use crate::blocks::{Blocks, Choice, FINE, LAST, Used, is_exact, keep, rounded_up};
 use crate::constraint::try_lower_all;
 use crate::edit::ending::{Edited, Ending, Keep};
 use crate::edit::setting::Setting;
 use crate::interval::{Real, point};
+use crate::track::arc::ArcEnd;
 use crate::track::{Control, StopKind};
 use std::collections::BTreeSet;
-use std::sync::atomic::Ordering;
 
 /// So often equations are chosen anew on one way.
 const MOST_LEGS: usize = 12;
@@ -49,11 +49,8 @@ impl Parts {
         let mut last = first.clone();
         let mut best: Option<Edited> = None;
         for _ in 0..MOST_LEGS {
-            let is_cancelled = control
-                .cancel
-                .is_some_and(|flag| flag.load(Ordering::Relaxed));
             let spent: usize = legs.iter().map(|leg| leg.tubes).sum();
-            if is_cancelled || spent > MOST_TUBES {
+            if control.is_interrupted() || spent > MOST_TUBES {
                 break;
             }
             let next = match last.t.0 > 0.0 {
@@ -134,9 +131,9 @@ impl Parts {
             owner => keep(&self.problem, owner),
         };
         let coordinates: BTreeSet<usize> = self.system.coordinates.iter().copied().collect();
-        let at = self.centres();
+        let at = &self.figure.centre;
         let later = |u: usize| coordinates.contains(&u).into();
-        let choice = Choice::new(&self.system, &at, later, first, FINE);
+        let choice = Choice::new(&self.system, at, later, first, FINE);
         let new: Vec<usize> = {
             let is_new = |row: &&usize| self.redundant.contains(row);
             choice.used.iter().filter(is_new).copied().collect()
@@ -160,7 +157,7 @@ impl Parts {
         self.take(choice, &rights)?;
         let mut moved = 0.0;
         if led.iter().any(|right| right.len() > 1) {
-            let End::Reached(figure) = self.follow(&led, control).end else {
+            let ArcEnd::Reached(figure) = self.follow(&led, control).end else {
                 return None;
             };
             moved = self.distance(&figure);
@@ -175,7 +172,7 @@ impl Parts {
         for &u in &choice.free {
             if !self.free.contains(&u) {
                 let unit = point(self.unit.powi(self.system.unknowns[u].power));
-                self.system.values[u] = Real::within(self.figure[u].enclosure() * unit);
+                self.system.values[u] = Real::within(self.figure.enclosure(u) * unit);
             }
         }
         let held = choice.free.iter().map(|&u| Used::Held(u));

@@ -5,7 +5,7 @@
 //! That figure is found in floats; what is proved is the way to it.
 
 use super::left_out::at_rest_all;
-use super::{End, Known, Parts, Run};
+use super::{Parts, put};
 use crate::blocks::{Choice, FINE, FREE_FIRST, Floats, keep};
 use crate::constraint::{Equation, try_lower_all};
 use crate::edit::drag::{Drag, Dragged};
@@ -13,6 +13,7 @@ use crate::edit::ending::Edited;
 use crate::interval::{Real, enclose, point};
 use crate::places::{Each as _, array};
 use crate::problem::Decimal;
+use crate::track::arc::{ArcEnd, ArcRun};
 use crate::track::{Control, Stop, StopKind};
 use std::collections::BTreeSet;
 use std::mem;
@@ -58,10 +59,10 @@ impl Parts {
         let mut edited = match legs.split_last() {
             Some((last, before)) => self.joined(last, before, (last, 0.0)),
             None => {
-                let run = Run {
-                    end: End::Reached(self.figure.clone()),
+                let run = ArcRun {
+                    end: ArcEnd::Reached(self.figure.clone()),
                     t: (1.0, 1.0),
-                    ..super::stopped(Stop::new(StopKind::Enough, ""))
+                    ..ArcRun::stopped(Stop::new(StopKind::Enough, ""))
                 };
                 self.edited(&[], run, self.scope())
             }
@@ -187,14 +188,14 @@ impl Parts {
     fn away(&self, wanted: &[Wanted]) -> f64 {
         let off = wanted
             .iter()
-            .map(|w| self.figure[w.unknown].centre - w.near);
+            .map(|w| self.figure.centre[w.unknown] - w.near);
         off.map(|x| x * x).sum::<f64>().sqrt()
     }
 
     /// How far an unknown is at most from where it is in another figure, in the unit of length.
     fn far_from(&self, near: &[f64]) -> f64 {
-        let both = self.figure.iter().zip(near);
-        both.fold(0.0, |far: f64, (a, b)| far.max((a.centre - b).abs()))
+        let both = self.figure.centre.iter().zip(near);
+        both.fold(0.0, |far: f64, (a, b)| far.max((a - b).abs()))
     }
 
     /// Coordinates of points that are dragged.
@@ -221,7 +222,7 @@ impl Parts {
     ) -> Option<(Vec<f64>, bool)> {
         let floats = Floats::new(&self.system, equations, self.unit);
         let rows: Vec<usize> = (0..self.system.rows.len()).collect();
-        let at = self.centres();
+        let at = self.figure.centre.clone();
         let goal = |w: &Wanted| at[w.unknown] + part * (w.near - at[w.unknown]);
         let put = |from: &[f64], part: f64| {
             let mut there = from.to_vec();
@@ -277,7 +278,7 @@ impl Parts {
         let undecided = |why: &str| Stop::new(StopKind::Undecided, why);
         let rights: Vec<Vec<Real>> = equations.iter().map(|e| e.right.clone()).collect();
         let rights = at_rest_all(&rights);
-        let at = self.centres();
+        let at = self.figure.centre.clone();
         let coordinates: BTreeSet<usize> = self.system.coordinates.iter().copied().collect();
         let rank = |u: usize| match wanted.iter().any(|w| w.unknown == u) {
             true => FREE_FIRST,
@@ -310,24 +311,25 @@ impl Parts {
             return Err(astray.stop);
         }
         let figure = match &run.end {
-            End::Reached(figure) => figure.clone(),
-            End::Limit(..) => {
+            ArcEnd::Reached(figure) => figure.clone(),
+            ArcEnd::Limit(_) => {
                 return Err(Stop::new(
                     StopKind::TurnsBack,
                     "the figure comes to a limit there",
                 ));
             }
-            End::Passes(stop) | End::Stopped(stop) => return Err(stop.clone()),
+            ArcEnd::Passes(stop) | ArcEnd::Stopped(stop) => return Err(stop.clone()),
         };
         self.figure = figure;
         for (u, to, unit) in reached {
             // The number that was led there is off `to` by no more than twice what was not known of it before; the box that was reached holds
             // one figure for each such number, and these are one family, so that for `to` continues the old one as well.
-            self.figure[u] = Known::new(to.enclose() * point(1.0 / unit));
+            put(&mut self.figure, u, to.enclose() * point(1.0 / unit));
             self.system.values[u] = to;
         }
         self.verdicts = judged.verdicts;
-        let end = End::Reached(self.figure.clone());
-        Ok((self.edited(&[], Run { end, ..run }, judged.account), names))
+        let end = ArcEnd::Reached(self.figure.clone());
+        let run = ArcRun { end, ..run };
+        Ok((self.edited(&[], run, judged.account), names))
     }
 }

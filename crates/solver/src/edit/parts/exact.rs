@@ -1,13 +1,13 @@
 //! Numbers that are known exactly all the way, as polynomials in t, and what can be said of them without any tube.
 
-use super::{Known, Parts, Used};
+use super::{Parts, Used};
 use crate::constraint::{Entry, Nonzero};
 use crate::equations::{Form, Ring as _};
 use crate::interval::along::{Along, Quantifiable as _};
 use crate::interval::{Interval, Real, hull, point};
 use crate::places::array;
 use crate::system::{Extent, Segment, orientation};
-use crate::track::arc::{Kept, Off, Orientation};
+use crate::track::arc::{Figure, Kept, Off, Orientation};
 use crate::track::{Stop, StopKind};
 use std::collections::HashMap;
 
@@ -76,7 +76,7 @@ impl Parts {
     ) -> Interval {
         match paths.get(&u) {
             Some(path) => value_at(path, time),
-            None => self.figure[u].enclosure(),
+            None => self.figure.enclosure(u),
         }
     }
 
@@ -88,10 +88,10 @@ impl Parts {
     }
 
     /// A vector that must not vanish and may do so in the figure.
-    pub(super) fn vanished(&self, figure: &[Known]) -> Option<Stop> {
+    pub(super) fn vanished(&self, figure: &Figure) -> Option<Stop> {
         let mut vectors = self.system.nonzero.iter();
         let vector = vectors.find(|vector| {
-            let place = self.coordinates_of(vector, |u| figure[u].enclosure());
+            let place = self.coordinates_of(vector, |u| figure.enclosure(u));
             place.iter().all(|x| x.contains(0.0))
         })?;
         let words = format!(
@@ -240,7 +240,7 @@ impl Parts {
                 let at = |entry: Option<usize>| match entry.map(|u| (u, paths.get(&u))) {
                     None => Along::whole(0),
                     Some((_, Some(path))) => along(path, time),
-                    Some((u, None)) => along(&[self.figure[u].enclosure()], time),
+                    Some((u, None)) => along(&[self.figure.enclosure(u)], time),
                 };
                 let left = row
                     .products

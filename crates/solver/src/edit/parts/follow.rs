@@ -1,7 +1,7 @@
 //! Following what moves, part by part, and what the parts come to together.
 
 use super::exact::{is_positive, value_at};
-use super::{End, Known, Parts, Run, Used, moves};
+use super::{Parts, Used, moves, put};
 use crate::constraint::{Entry, Equation, Form, Nonzero, Product, Role, value};
 use crate::interval::{Interval, Real, hull, point};
 use crate::places::array;
@@ -12,7 +12,6 @@ use crate::track::certified::arcs;
 use crate::track::{Control, LARGEST_SQUARE, Stop, StopKind};
 use std::collections::{BTreeSet, HashMap};
 use std::iter;
-use std::sync::atomic::Ordering;
 
 /// What became of one part.
 struct PartRun {
@@ -43,7 +42,16 @@ impl Parts {
     }
 
     /// Follows all that moves from t = 0 to t = 1.
-    pub(super) fn follow(&mut self, rights: &[Vec<Real>], control: &mut Control) -> Run {
+    pub(super) fn follow(&mut self, rights: &[Vec<Real>], control: &mut Control) -> ArcRun {
+        self.follow_with_places(rights, control).0
+    }
+
+    /// The same, with the places of what is looked at, in the order of [`ArcRun::beside`].
+    pub(super) fn follow_with_places(
+        &mut self,
+        rights: &[Vec<Real>],
+        control: &mut Control,
+    ) -> (ArcRun, Vec<usize>) {
         let moving = self.moving(rights);
         let exact = self.exact_polynomials(rights, &moving);
         let groups = self.groups(&moving);
@@ -52,10 +60,7 @@ impl Parts {
             let run = self.follow_group(group, rights, control);
             let is_reached = matches!(run.run.end, ArcEnd::Reached(_));
             runs.push(run);
-            let is_cancelled = control
-                .cancel
-                .is_some_and(|flag| flag.load(Ordering::Relaxed));
-            if !is_reached && is_cancelled {
+            if !is_reached && control.is_interrupted() {
                 break;
             }
         }
@@ -74,7 +79,14 @@ impl Parts {
             .filter(|&k| !matches!(runs[k].run.end, ArcEnd::Reached(_)))
             .min_by(|&a, &b| runs[a].run.t.0.total_cmp(&runs[b].run.t.0));
         let t = worst.map_or((1.0, 1.0), |k| runs[k].run.t);
-        self.combine(runs, worst, (&exact, rights), t)
+        let upto = hull(t.0.min(0.0), t.1.min(1.0));
+        let mut besides = self.exact_besides((&exact, rights), upto);
+        for PartRun { beside, run, .. } in &runs {
+            besides.extend(beside.iter().copied().zip(run.beside.iter().copied()));
+        }
+        let (places, beside) = besides.into_iter().unzip();
+        let run = self.combine(runs, worst, &exact, (t, upto));
+        (ArcRun { beside, ..run }, places)
     }
 
     /// Which blocks move.
@@ -180,10 +192,11 @@ impl Parts {
             }
             None => arcs(self.homotopy(&unknowns, &used, rights), &self.options),
         };
+        let of = |all: &[f64]| unknowns.iter().map(|&u| all[u]).collect();
         let start = Figure {
-            centre: unknowns.iter().map(|&u| self.figure[u].centre).collect(),
-            low: unknowns.iter().map(|&u| self.figure[u].low).collect(),
-            radius: unknowns.iter().map(|&u| self.figure[u].radius).collect(),
+            centre: of(&self.figure.centre),
+            low: of(&self.figure.low),
+            radius: of(&self.figure.radius),
         };
         let run = follower.follow(&start, control);
         self.ready.0.insert(blocks, follower);
@@ -280,20 +293,17 @@ impl Parts {
         &self,
         runs: Vec<PartRun>,
         worst: Option<usize>,
-        (exact, rights): (&HashMap<usize, Vec<Real>>, &[Vec<Real>]),
-        t: (f64, f64),
-    ) -> Run {
-        let upto = hull(t.0.min(0.0), t.1.min(1.0));
-        let mut out = Run {
-            end: End::Stopped(Stop::new(StopKind::Bug, "")),
+        exact: &HashMap<usize, Vec<Real>>,
+        (t, upto): ((f64, f64), Interval),
+    ) -> ArcRun {
+        let mut out = ArcRun {
             t,
             orientations: self.exact_orientations(exact, upto),
             segments: self.exact_segments(exact, upto),
-            beside: self.exact_besides((exact, rights), upto),
-            tubes: runs.iter().map(|run| run.run.steps).sum(),
+            steps: runs.iter().map(|run| run.run.steps).sum(),
             rejected: runs.iter().map(|run| run.run.rejected).sum(),
             length: runs.iter().map(|run| run.run.length).sum(),
-            switched_on: Vec::new(),
+            ..ArcRun::stopped(Stop::new(StopKind::Bug, ""))
         };
         for run in &runs {
             for remark in &run.run.switched_on {
@@ -304,48 +314,44 @@ impl Parts {
             out.orientations
                 .extend(run.run.orientations.iter().cloned());
             out.segments.extend(run.run.segments.iter().cloned());
-            let beside = run.beside.iter().copied();
-            out.beside
-                .extend(beside.zip(run.run.beside.iter().copied()));
         }
         // Nothing is said of a piece of path beyond where all of it ends.
         for orientation in &mut out.orientations {
             orientation.lost = orientation.lost.filter(|lost| lost.0 <= t.1);
         }
+        let undefined = |out: ArcRun, words: String| ArcRun {
+            end: ArcEnd::Stopped(Stop::new(StopKind::Undefined, words)),
+            t: (0.0, 0.0),
+            ..out
+        };
         for (&u, polynomial) in exact {
             if self.system.unknowns[u].role == Role::Positive && !is_positive(polynomial) {
                 let name = &self.system.unknowns[u].name;
                 let words = format!("{name} does not stay positive");
-                out.end = End::Stopped(Stop::new(StopKind::Undefined, words));
-                out.t = (0.0, 0.0);
-                return out;
+                return undefined(out, words);
             }
         }
         if let Some(name) = self.vanishes_exactly(exact) {
             let words = format!(
                 "{name} may vanish on the way, and what is said of its direction would say nothing there"
             );
-            out.end = End::Stopped(Stop::new(StopKind::Undefined, words));
-            out.t = (0.0, 0.0);
-            return out;
+            return undefined(out, words);
         }
         let paths = self.paths(exact);
-        let at = |time: Interval| -> Vec<Known> {
+        let at = |time: Interval| {
             let mut figure = self.figure.clone();
             for (&u, path) in &paths {
-                figure[u] = Known::new(value_at(path, time));
+                put(&mut figure, u, value_at(path, time));
             }
             figure
         };
-        let put = |figure: &mut Vec<Known>, unknowns: &[usize], found: &Figure| {
+        let take = |figure: &mut Figure, unknowns: &[usize], found: &Figure| {
             for (k, &u) in unknowns.iter().enumerate() {
                 // Numbers known exactly are known better.
                 if !exact.contains_key(&u) {
-                    figure[u] = Known {
-                        centre: found.centre[k],
-                        low: found.low[k],
-                        radius: found.radius[k],
-                    };
+                    figure.centre[u] = found.centre[k];
+                    figure.low[u] = found.low[k];
+                    figure.radius[u] = found.radius[k];
                 }
             }
         };
@@ -353,32 +359,34 @@ impl Parts {
             let mut figure = at(point(1.0));
             for PartRun { unknowns, run, .. } in &runs {
                 if let ArcEnd::Reached(found) = &run.end {
-                    put(&mut figure, unknowns, found);
+                    take(&mut figure, unknowns, found);
                 }
             }
-            out.end = End::Reached(figure);
+            out.end = ArcEnd::Reached(figure);
             return out;
         };
         let PartRun { unknowns, run, .. } = &runs[worst];
         out.end = match &run.end {
             ArcEnd::Limit(fold) => {
-                let Fold {
-                    figure: found,
-                    velocity,
-                    t,
-                    ..
-                } = &**fold;
-                let mut figure = at(*t);
-                put(&mut figure, unknowns, found);
-                let mut all = vec![0.0; figure.len()];
-                for (k, &u) in unknowns.iter().enumerate() {
-                    all[u] = velocity[k];
-                }
-                End::Limit(figure, all)
+                let mut figure = at(fold.t);
+                take(&mut figure, unknowns, &fold.figure);
+                // What is in no part that is followed has no velocity.
+                let of_all = |of: &[f64]| {
+                    let mut all = vec![0.0; figure.centre.len()];
+                    unknowns.iter().zip(of).for_each(|(&u, &x)| all[u] = x);
+                    all
+                };
+                ArcEnd::Limit(Box::new(Fold {
+                    velocity: of_all(&fold.velocity),
+                    velocity_radius: of_all(&fold.velocity_radius),
+                    normal: of_all(&fold.normal),
+                    t: fold.t,
+                    // That is told of the part alone.
+                    alone_within: 0.0,
+                    figure,
+                }))
             }
-            ArcEnd::Passes(reason) => End::Passes(reason.clone()),
-            ArcEnd::Stopped(reason) => End::Stopped(reason.clone()),
-            ArcEnd::Reached(_) => unreachable!("it is not reached"),
+            other => other.clone(),
         };
         out
     }

@@ -1,9 +1,10 @@
 //! Constraints that are left out because they follow from others at the figure: by proof, or as far as floats tell.
 
-use super::{Known, Parts, Used, moves};
+use super::{Parts, Used, moves};
 use crate::blocks::{Given, Row, Ruler, Verdict, combination, rounded_down};
 use crate::interval::{Interval, Real, point};
 use crate::system::Right;
+use crate::track::arc::Figure;
 use crate::track::{Stop, StopKind};
 
 /// What a right-hand side is at t = 1, for all t.
@@ -70,7 +71,7 @@ impl Parts {
     /// How a figure stands to each equation that was left out, by its place among these. `time`: t there, where that is not 1.
     pub(super) fn verdicts(
         &self,
-        figure: &[Known],
+        figure: &Figure,
         rights: &[Vec<Real>],
         time: Option<Interval>,
     ) -> Vec<Verdict> {
@@ -90,11 +91,11 @@ impl Parts {
     pub(super) fn sides(
         &self,
         row: usize,
-        figure: &[Known],
+        figure: &Figure,
         rights: &[Vec<Real>],
         time: Option<Interval>,
     ) -> (Interval, Interval) {
-        let at = |entry: Option<usize>| entry.map_or(point(0.0), |u| figure[u].enclosure());
+        let at = |entry: Option<usize>| entry.map_or(point(0.0), |u| figure.enclosure(u));
         let Row {
             index, products, ..
         } = &self.system.rows[row];

@@ -22,14 +22,14 @@ use crate::blocks::{Account, Blocks, Combination, Cut, Given, Singular, System, 
 use crate::constraint::{Entry, Posed, Record, try_lower_all};
 use crate::edit::ending::{Astray, Edited, Ending, Keep, Limit, Orientations};
 use crate::edit::lowered;
-use crate::edit::open::{Moved, OpenError};
+use crate::edit::open::{Moved, OpenError, furthest, reached};
 use crate::edit::segments::{NARROWER, Reversed, first_lost, segments, stop};
 use crate::edit::setting::Setting;
 use crate::interval::{Interval, Real, hull, point};
 use crate::places::array;
 use crate::problem::Problem;
 use crate::system::{Extent, Located, Segment};
-use crate::track::arc::{Kept, Off, Orientation};
+use crate::track::arc::{ArcEnd, ArcRun, Figure, Fold, Orientation};
 use crate::track::certified::FollowArcs;
 use crate::track::{Control, Options, StartError, Stop, StopKind};
 use left_out::at_rest_all;
@@ -39,28 +39,6 @@ use std::time::Instant;
 /// A part is followed over so many tubes and then given up. Edits of real sketches take a few; those that came to so
 /// many had ever longer tubes and ever larger figures, as where two lines become parallel.
 pub(super) const MOST_TUBES: usize = 1000;
-
-/// A number that is known up to a radius, in the homotopy's unit.
-#[derive(Debug, Clone, Copy)]
-struct Known {
-    centre: f64,
-    low: f64,
-    radius: f64,
-}
-
-impl Known {
-    fn new(x: Interval) -> Self {
-        Known {
-            centre: x.mid(),
-            low: 0.0,
-            radius: x.rad(),
-        }
-    }
-
-    fn enclosure(self) -> Interval {
-        point(self.centre) + point(self.low) + hull(-self.radius, self.radius)
-    }
-}
 
 /// Followers of parts that were needed before, by their blocks. A copy has none yet.
 #[derive(Debug, Default)]
@@ -109,7 +87,7 @@ pub(super) struct Parts {
     followed: Vec<Vec<usize>>,
     /// Lines along an axis and arcs, which must not vanish: followed always.
     segments: Vec<Segment>,
-    figure: Vec<Known>,
+    figure: Figure,
     /// Where the drawing was singular: what was so about it.
     singular: Option<Singular>,
     /// Circles that touch lines by their numbers, which have equations that were added; and the problem without these.
@@ -124,34 +102,12 @@ pub(super) struct Parts {
     looked_at: Vec<usize>,
 }
 
-/// A path of the whole sketch.
-struct Run {
-    end: End,
-    t: (f64, f64),
-    orientations: Vec<Orientation>,
-    segments: Vec<Kept>,
-    /// How far its figures are off what is looked at, by place.
-    beside: Vec<(usize, Off)>,
-    tubes: usize,
-    rejected: usize,
-    length: f64,
-    switched_on: Vec<String>,
-}
-
 /// What is proved of the figures of a run.
 struct Judged {
     /// How the last one stands to what was left out.
     verdicts: Vec<Verdict>,
     account: Account,
     astray: Option<Astray>,
-}
-
-enum End {
-    Reached(Vec<Known>),
-    /// The figure there and the velocity of each unknown.
-    Limit(Vec<Known>, Vec<f64>),
-    Passes(Stop),
-    Stopped(Stop),
 }
 
 fn refuse(what: String) -> OpenError {
@@ -217,11 +173,16 @@ impl Parts {
         plain.constraints.truncate(asked.constraints.len());
         let plain = (!contacts.is_empty()).then(|| Box::new(plain));
         let values = system.unknowns.iter().zip(&system.values);
-        let scaled = values.map(|(unknown, value)| {
+        let none = vec![0.0; values.len()];
+        let mut figure = Figure {
+            centre: none.clone(),
+            low: none.clone(),
+            radius: none,
+        };
+        for (u, (unknown, value)) in values.enumerate() {
             let scale = unit.powi(unknown.power);
-            Known::new(value.enclose() * point(1.0 / scale))
-        });
-        let figure = scaled.collect();
+            put(&mut figure, u, value.enclose() * point(1.0 / scale));
+        }
         let mut parts = Parts {
             senses: senses::senses(asked),
             followed: senses::followed(asked),
@@ -272,33 +233,11 @@ impl Parts {
     fn lead(&mut self, rights: &[Vec<Real>], control: &mut Control) -> Result<(), OpenError> {
         let mut run = self.follow(rights, control);
         self.end_where_segments_vanish((&[], rights), &mut run, control);
-        let failed = |ending: Ending, what: String| OpenError::Correction {
-            what,
-            ending: Box::new(ending),
-        };
-        let figure = match run.end {
-            End::Reached(figure) => figure,
-            End::Limit(..) => {
-                let what = format!(
-                    "on the way there, at t = {:.6}, the figure comes to a limit and turns back",
-                    run.t.0
-                );
-                let stop = Stop::new(StopKind::TurnsBack, &*what);
-                return Err(failed(Ending::Stopped(stop), what));
-            }
-            End::Passes(reason) => {
-                let what = format!("on the way there branches seem to meet ({reason})");
-                return Err(failed(Ending::Passes(reason), what));
-            }
-            End::Stopped(reason) => {
-                let what = reason.text.clone();
-                return Err(failed(Ending::Stopped(reason), what));
-            }
-        };
+        let figure = reached(run.end, run.t)?;
         let distance = self.distance(&figure);
         self.moved = Moved {
             distance,
-            tubes: run.tubes.max(usize::from(distance > 0.0)),
+            tubes: run.steps.max(usize::from(distance > 0.0)),
         };
         self.figure = figure;
         self.verdicts = self.verdicts(&self.figure, &at_rest_all(rights), None);
@@ -307,11 +246,7 @@ impl Parts {
             .map(|(_, stop)| stop)
             .or_else(|| self.vanished(&self.figure))
         {
-            Some(stop) => {
-                let stop = self.sober(stop);
-                let what = stop.text.clone();
-                Err(failed(Ending::Stopped(stop), what))
-            }
+            Some(stop) => Err(OpenError::stopped(self.sober(stop))),
             None => Ok(()),
         }
     }
@@ -372,10 +307,10 @@ impl Parts {
         self.points_of(&self.figure)
     }
 
-    fn points_of(&self, figure: &[Known]) -> Vec<[Interval; 3]> {
+    fn points_of(&self, figure: &Figure) -> Vec<[Interval; 3]> {
         let (d, unit) = (self.problem.dimension, point(self.unit));
         let coordinate = |p: usize, axis: usize| match axis < d {
-            true => figure[self.system.coordinates[p * d + axis]].enclosure() * unit,
+            true => figure.enclosure(self.system.coordinates[p * d + axis]) * unit,
             false => point(0.0),
         };
         (0..self.problem.points.len())
@@ -388,26 +323,16 @@ impl Parts {
         self.objects_of(&self.figure)
     }
 
-    fn objects_of(&self, figure: &[Known]) -> Vec<Located> {
+    fn objects_of(&self, figure: &Figure) -> Vec<Located> {
         let points = self.points_of(figure);
-        let at = |u: usize| figure[u].enclosure();
+        let at = |u: usize| figure.enclosure(u);
         let system = &self.system;
         system.locate(&self.problem, &self.told, &points, self.unit, at)
     }
 
-    /// The figure in floats, in the homotopy's unit.
-    fn centres(&self) -> Vec<f64> {
-        self.figure.iter().map(|known| known.centre).collect()
-    }
-
-    fn distance(&self, figure: &[Known]) -> f64 {
-        let (old, new) = (self.points(), self.points_of(figure));
-        let apart = old.iter().zip(&new).map(|(a, b)| {
-            let sum = (0..3).fold(point(0.0), |sum, k| sum + (a[k] - b[k]).sqr());
-            sum.sqrt().sup()
-        });
+    fn distance(&self, figure: &Figure) -> f64 {
+        let apart = furthest(&self.points(), &self.points_of(figure));
         // Where nothing moved the enclosures are of one and the same point.
-        let apart = apart.fold(0.0, f64::max);
         if apart > 1e-15 * self.unit {
             apart
         } else {
@@ -428,7 +353,10 @@ impl Parts {
         }) {
             Err(fault) => {
                 let stop = Stop::new(StopKind::Refused, fault);
-                (self.edited(settings, stopped(stop), self.scope()), None)
+                (
+                    self.edited(settings, ArcRun::stopped(stop), self.scope()),
+                    None,
+                )
             }
             Ok(lowered) => {
                 let rights: Vec<Vec<Real>> = lowered
@@ -438,13 +366,13 @@ impl Parts {
                     .map(|e| e.right)
                     .collect();
                 let mut run = match self.unmovable(&rights) {
-                    Some(what) => stopped(Stop::new(StopKind::Contradiction, what)),
+                    Some(what) => ArcRun::stopped(Stop::new(StopKind::Contradiction, what)),
                     None => self.follow(&rights, control),
                 };
                 let judged = self.judge((settings, &rights), &mut run, control);
                 astray = judged.astray;
                 let figure = match &run.end {
-                    End::Reached(reached) => {
+                    ArcEnd::Reached(reached) => {
                         Some((reached.clone(), lowered.record, rights, judged.verdicts))
                     }
                     _ => None,
@@ -474,18 +402,20 @@ impl Parts {
     fn judge(
         &mut self,
         (settings, rights): (&[Setting], &[Vec<Real>]),
-        run: &mut Run,
+        run: &mut ArcRun,
         control: &mut Control,
     ) -> Judged {
         self.end_where_segments_vanish((settings, rights), run, control);
         let verdicts = match &run.end {
-            End::Reached(reached) => self.verdicts(reached, rights, None),
-            End::Limit(there, _) => self.verdicts(there, rights, Some(hull(run.t.0, run.t.1))),
+            ArcEnd::Reached(reached) => self.verdicts(reached, rights, None),
+            ArcEnd::Limit(fold) => {
+                self.verdicts(&fold.figure, rights, Some(hull(run.t.0, run.t.1)))
+            }
             _ => self.verdicts.clone(),
         };
         let stop = self.missed(&verdicts).map(|(_, stop)| stop);
         let stop = stop.or_else(|| match &run.end {
-            End::Reached(reached) => self.vanished(reached),
+            ArcEnd::Reached(reached) => self.vanished(reached),
             _ => None,
         });
         let way = self.look_on_the_way(rights, run, control);
@@ -512,7 +442,7 @@ impl Parts {
         if let Some(what) = stop {
             // Up to where a figure first misses it, if that was told.
             let t = astray.as_ref().map_or(0.0, |astray| astray.t.0.max(0.0));
-            (run.end, run.t) = (End::Stopped(what), (t, t));
+            (run.end, run.t) = (ArcEnd::Stopped(what), (t, t));
         }
         Judged {
             verdicts,
@@ -525,7 +455,7 @@ impl Parts {
     fn end_where_segments_vanish(
         &mut self,
         (settings, rights): (&[Setting], &[Vec<Real>]),
-        run: &mut Run,
+        run: &mut ArcRun,
         control: &mut Control,
     ) {
         for radius in NARROWER {
@@ -536,20 +466,20 @@ impl Parts {
             self.options.tube_radius = Some(radius * self.unit);
             let again = self.follow(rights, control);
             (self.options.tube_radius, self.ready) = wide;
-            run.tubes += again.tubes;
-            let is_told = matches!(again.end, End::Reached(_) | End::Limit(..));
+            run.steps += again.steps;
+            let is_told = matches!(again.end, ArcEnd::Reached(_) | ArcEnd::Limit(_));
             if !is_told && self.lost_segment(settings, &again).is_none() {
                 break;
             }
             run.segments = again.segments;
         }
         if let Some((stop, t)) = self.lost_segment(settings, run) {
-            (run.end, run.t) = (End::Stopped(stop), t);
+            (run.end, run.t) = (ArcEnd::Stopped(stop), t);
         }
     }
 
     /// Why a run ends at a line or arc that shrinks to nothing, and where, if it does.
-    fn lost_segment(&self, settings: &[Setting], run: &Run) -> Option<(Stop, (f64, f64))> {
+    fn lost_segment(&self, settings: &[Setting], run: &ArcRun) -> Option<(Stop, (f64, f64))> {
         let (head, d) = (self.problem.distances.len(), self.problem.dimension);
         let reversed = settings.iter().filter_map(|s| {
             let (from, to) = (self.value(s.index), s.value());
@@ -558,7 +488,7 @@ impl Parts {
         let reversed: Vec<Reversed> = reversed.collect();
         let place = |p: usize, axis: usize| self.system.coordinates[p * d + axis];
         let is_same = |a: usize, b: usize, axis: usize| place(a, axis) == place(b, axis);
-        let is_zero = |p: usize, axis: usize| self.figure[place(p, axis)].enclosure() == point(0.0);
+        let is_zero = |p: usize, axis: usize| self.figure.enclosure(place(p, axis)) == point(0.0);
         let is_asked = |object: usize| {
             let segment = self.segments.iter().find(|s| s.object == object);
             segment.is_some_and(|s| reversed.iter().any(|r| r.is_of(s, is_same, is_zero)))
@@ -572,22 +502,22 @@ impl Parts {
         self.unit.powi(self.powers[index])
     }
 
-    fn edited(&self, settings: &[Setting], run: Run, account: Account) -> Edited {
+    fn edited(&self, settings: &[Setting], run: ArcRun, account: Account) -> Edited {
         let t = hull(run.t.0, run.t.1);
-        let is_reached = matches!(run.end, End::Reached(_));
+        let is_reached = matches!(run.end, ArcEnd::Reached(_));
         let t = (!is_reached).then_some(t);
         let dimensions = settings
             .iter()
             .map(|s| s.at(&self.problem, self.value(s.index), t));
         let dimensions = dimensions.collect();
         let (ending, reached) = match run.end {
-            End::Reached(figure) => (Ending::Reached, Some(figure)),
-            End::Limit(figure, velocity) => {
-                let limit = self.limit(&figure, &velocity, &run.orientations);
-                (Ending::Limit(limit), Some(figure))
+            ArcEnd::Reached(figure) => (Ending::Reached, Some(figure)),
+            ArcEnd::Limit(fold) => {
+                let limit = self.limit(&fold, &run.orientations);
+                (Ending::Limit(limit), Some(fold.figure))
             }
-            End::Passes(reason) => (Ending::Passes(reason), None),
-            End::Stopped(reason) => (Ending::Stopped(reason), None),
+            ArcEnd::Passes(reason) => (Ending::Passes(reason), None),
+            ArcEnd::Stopped(reason) => (Ending::Stopped(reason), None),
         };
         let figure = reached.as_ref().unwrap_or(&self.figure);
         let contacts = self.contacts.iter().map(contacts::Kept::in_words);
@@ -598,7 +528,7 @@ impl Parts {
             points: self.points_of(figure),
             objects: self.objects_of(figure),
             orientations: Orientations::new(run.orientations),
-            tubes: run.tubes,
+            tubes: run.steps,
             rejected: run.rejected,
             length: run.length,
             switched_on: contacts.chain(run.switched_on).collect(),
@@ -611,15 +541,19 @@ impl Parts {
     }
 
     /// What is special about a fold's figure.
-    fn limit(&self, figure: &[Known], velocity: &[f64], orientations: &[Orientation]) -> Limit {
+    fn limit(&self, fold: &Fold, orientations: &[Orientation]) -> Limit {
         let d = self.problem.dimension;
         let motion = (0..self.problem.points.len()).map(|p| {
             array(|axis| match axis < d {
-                true => velocity[self.system.coordinates[p * d + axis]],
+                true => fold.velocity[self.system.coordinates[p * d + axis]],
                 false => 0.0,
             })
         });
-        Limit::new(&self.points_of(figure), orientations, motion.collect())
+        Limit::new(
+            &self.points_of(&fold.figure),
+            orientations,
+            motion.collect(),
+        )
     }
 
     /// What a dimension is now: an enclosure.
@@ -628,18 +562,11 @@ impl Parts {
     }
 }
 
-fn stopped(reason: Stop) -> Run {
-    Run {
-        end: End::Stopped(reason),
-        t: (0.0, 0.0),
-        orientations: Vec::new(),
-        segments: Vec::new(),
-        beside: Vec::new(),
-        tubes: 0,
-        rejected: 0,
-        length: 0.0,
-        switched_on: Vec::new(),
-    }
+/// Makes an unknown of a figure what an interval in the homotopy's unit says.
+fn put(figure: &mut Figure, unknown: usize, x: Interval) {
+    figure.centre[unknown] = x.mid();
+    figure.low[unknown] = 0.0;
+    figure.radius[unknown] = x.rad();
 }
 
 /// Whether a right-hand side changes with t.

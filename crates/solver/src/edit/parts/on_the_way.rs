@@ -2,12 +2,12 @@
 //!
 //! The way is followed a second time, in tubes so narrow that it can be told.
 
-use super::{End, Parts, Run};
+use super::Parts;
 use crate::blocks::{Verdict, rounded_down};
 use crate::equations::Form;
 use crate::interval::{Interval, Real, hull, point};
 use crate::system::Right;
-use crate::track::arc::Off;
+use crate::track::arc::{ArcEnd, ArcRun, Off};
 use crate::track::{Control, Stop, StopKind};
 use std::collections::{HashMap, HashSet};
 use std::mem;
@@ -31,7 +31,7 @@ impl Parts {
     pub(super) fn look_on_the_way(
         &mut self,
         rights: &[Vec<Real>],
-        run: &mut Run,
+        run: &mut ArcRun,
         control: &mut Control,
     ) -> OnTheWay {
         let mut out = OnTheWay::default();
@@ -50,15 +50,15 @@ impl Parts {
             if doubtful.is_empty() {
                 break;
             }
-            let again = self.follow_looking(&doubtful, radius, rights, control);
-            run.tubes += again.tubes;
+            let (again, places) = self.follow_looking(&doubtful, radius, rights, control);
+            run.steps += again.steps;
             match run.end {
-                End::Reached(_) | End::Limit(..) if again.t.1 < run.t.0 => break,
-                End::Reached(_) | End::Limit(..) => {}
+                ArcEnd::Reached(_) | ArcEnd::Limit(_) if again.t.1 < run.t.0 => break,
+                ArcEnd::Reached(_) | ArcEnd::Limit(_) => {}
                 _ if again.t.0 < run.t.0 => run.t = again.t,
                 _ => {}
             }
-            for (k, off) in again.beside {
+            for (k, off) in places.into_iter().zip(again.beside) {
                 let (verdict, missed) = self.verdict_on_the_way(k, off, again.t.1, rights);
                 let is_told = !matches!(verdict, Verdict::Undecided { .. }) || missed.is_some();
                 out.verdicts.insert(k, verdict);
@@ -71,21 +71,21 @@ impl Parts {
         out
     }
 
-    /// Follows all that moves, looking at some of what was left out.
+    /// Follows all that moves, looking at some of what was left out: at what the run tells how far it is off, by place.
     fn follow_looking(
         &mut self,
         looked_at: &[usize],
         radius: f64,
         rights: &[Vec<Real>],
         control: &mut Control,
-    ) -> Run {
+    ) -> (ArcRun, Vec<usize>) {
         let options = self.options.clone();
         let (ready, together) = (mem::take(&mut self.ready), mem::take(&mut self.together));
         self.options.tube_radius = Some(radius * self.unit);
         self.options.max_steps = MOST_TUBES;
         self.looked_at = looked_at.to_vec();
         self.together = self.bound_together();
-        let again = self.follow(rights, control);
+        let again = self.follow_with_places(rights, control);
         self.looked_at.clear();
         (self.options, self.ready, self.together) = (options, ready, together);
         again

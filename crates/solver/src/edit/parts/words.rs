@@ -14,7 +14,7 @@ impl Parts {
     /// What a claim is proved of, with what is known of each row that was left out, by place.
     pub(super) fn account_of(&self, verdict: impl Fn(usize) -> Verdict) -> Account {
         let value = |u: usize| {
-            self.figure[u].enclosure() * point(self.unit.powi(self.system.unknowns[u].power))
+            self.figure.enclosure(u) * point(self.unit.powi(self.system.unknowns[u].power))
         };
         let left_out = self.redundant.iter().enumerate();
         let left_out =
