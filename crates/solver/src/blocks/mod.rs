@@ -34,11 +34,12 @@ mod pinned;
 mod singular;
 mod surplus;
 
-pub(crate) use account::Ruler;
 pub use account::{Account, Held, LEAST_PART, LeftOut, Verdict, Why, rounded_down, rounded_up};
+pub(crate) use account::{Ruler, enclosed};
 pub use choose::Choice;
 pub(crate) use choose::{COARSE, FINE, FREE_FIRST, LAST};
 pub use clusters::{MOST_POINTS, clusters};
+pub(crate) use combine::seen;
 pub use combine::{Choice as CombinedChoice, Combined};
 pub(crate) use cut::{
     Cut, Used, account, in_words, is_exact, keep, name, name as owner_name, straight,
