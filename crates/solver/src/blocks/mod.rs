@@ -41,9 +41,7 @@ pub(crate) use choose::{COARSE, FINE, FREE_FIRST, LAST};
 pub use clusters::{MOST_POINTS, clusters};
 pub(crate) use combine::seen;
 pub use combine::{Choice as CombinedChoice, Combined};
-pub(crate) use cut::{
-    Cut, Used, account, in_words, is_exact, keep, name, name as owner_name, straight,
-};
+pub(crate) use cut::{Cut, Used, in_words, is_exact, keep, name as owner_name, square, straight};
 pub use decompose::{Block, Blocks};
 pub(crate) use drawn::Floats;
 pub use figures::{BlockAccount, Chosen, Comparison, Figures, First, Sense, Way, WithSenses};

@@ -223,7 +223,7 @@ impl Figures {
         let refused = refused.map(|(n, &row)| (cut.name(cut.system.rows[row].index), n));
         Ok(Figures {
             refused: refused.collect(),
-            account: cut.account(|k| verdicts[k]),
+            account: cut.account(|u| cut.system.values[u].enclose(), |k| verdicts[k]),
             fixed,
             parts,
             accounts,

@@ -2,9 +2,8 @@
 
 use super::exact::{is_positive, value_at};
 use super::{Parts, Used, moves, put};
-use crate::constraint::{Entry, Equation, Form, Nonzero, Product, Role, value};
+use crate::constraint::{Entry, Equation, Form, Product, Role, value};
 use crate::interval::{Interval, Real, hull, point};
-use crate::places::array;
 use crate::sets::Joined;
 use crate::system::{Extent, Homotopy, Part, Right};
 use crate::track::arc::{ArcEnd, ArcRun, Figure, Fold};
@@ -21,13 +20,20 @@ struct PartRun {
     run: ArcRun,
 }
 
+/// The part that was followed least far, of those that were not followed to their ends.
+fn worst(runs: &[PartRun]) -> Option<usize> {
+    let open = |&k: &usize| !matches!(runs[k].run.end, ArcEnd::Reached(_));
+    let ended = (0..runs.len()).filter(open);
+    ended.min_by(|&a, &b| runs[a].run.t.0.total_cmp(&runs[b].run.t.0))
+}
+
 impl Parts {
     pub(super) fn rights_of(&self, used: Used, rights: &[Vec<Real>]) -> Vec<Real> {
         match used {
-            Used::Row(row) => rights[self.system.rows[row].index].clone(),
+            Used::Row(row) => rights[self.cut.system.rows[row].index].clone(),
             Used::Held(u) => {
                 let change = self.led.get(&u).cloned();
-                iter::once(self.system.values[u].clone())
+                iter::once(self.cut.system.values[u].clone())
                     .chain(change)
                     .collect()
             }
@@ -36,8 +42,8 @@ impl Parts {
 
     fn power_of(&self, used: Used) -> i32 {
         match used {
-            Used::Row(row) => self.powers[self.system.rows[row].index],
-            Used::Held(u) => self.system.unknowns[u].power,
+            Used::Row(row) => self.cut.powers[self.cut.system.rows[row].index],
+            Used::Held(u) => self.cut.system.unknowns[u].power,
         }
     }
 
@@ -64,10 +70,7 @@ impl Parts {
                 break;
             }
         }
-        let worst = (0..runs.len())
-            .filter(|&k| !matches!(runs[k].run.end, ArcEnd::Reached(_)))
-            .min_by(|&a, &b| runs[a].run.t.0.total_cmp(&runs[b].run.t.0));
-        if let Some(k) = worst
+        if let Some(k) = worst(&runs)
             && runs.len() > 1
             && matches!(runs[k].run.end, ArcEnd::Limit(_))
         {
@@ -75,9 +78,7 @@ impl Parts {
             let all: Vec<usize> = groups.concat();
             runs = vec![self.follow_group(&all, rights, control)];
         }
-        let worst = (0..runs.len())
-            .filter(|&k| !matches!(runs[k].run.end, ArcEnd::Reached(_)))
-            .min_by(|&a, &b| runs[a].run.t.0.total_cmp(&runs[b].run.t.0));
+        let worst = worst(&runs);
         let t = worst.map_or((1.0, 1.0), |k| runs[k].run.t);
         let upto = hull(t.0.min(0.0), t.1.min(1.0));
         let mut besides = self.exact_besides((&exact, rights), upto);
@@ -91,11 +92,11 @@ impl Parts {
 
     /// Which blocks move.
     pub(super) fn moving(&self, rights: &[Vec<Real>]) -> Vec<bool> {
-        let mut moving = vec![false; self.blocks.blocks.len()];
-        for (b, block) in self.blocks.blocks.iter().enumerate() {
+        let mut moving = vec![false; self.cut.blocks.blocks.len()];
+        for (b, block) in self.cut.blocks.blocks.iter().enumerate() {
             moving[b] = block.needs.iter().any(|&need| moving[need])
-                || block.equations.iter().any(|&e| match self.used[e] {
-                    Used::Row(row) => moves(&rights[self.system.rows[row].index]),
+                || block.equations.iter().any(|&e| match self.cut.used[e] {
+                    Used::Row(row) => moves(&rights[self.cut.system.rows[row].index]),
                     Used::Held(u) => self.led.contains_key(&u),
                 });
         }
@@ -107,13 +108,17 @@ impl Parts {
         let count = moving.len();
         let mut sets = Joined::new(count);
         let mut taken: BTreeSet<usize> = (0..count)
-            .filter(|&b| moving[b] && !self.is_exact[b])
+            .filter(|&b| moving[b] && !self.cut.is_exact[b])
             .collect();
         for of in &self.together {
             if !of.iter().any(|&b| moving[b]) {
                 continue;
             }
-            let of: Vec<usize> = of.iter().copied().filter(|&b| !self.is_exact[b]).collect();
+            let of: Vec<usize> = of
+                .iter()
+                .copied()
+                .filter(|&b| !self.cut.is_exact[b])
+                .collect();
             if let Some(&first) = of.first() {
                 for &b in &of {
                     sets.join([b, first]);
@@ -121,14 +126,14 @@ impl Parts {
                 taken.extend(of);
             }
         }
-        let with_needs = self.blocks.with_needs(taken);
+        let with_needs = self.cut.blocks.with_needs(taken);
         let not_exact: Vec<usize> = with_needs
             .into_iter()
-            .filter(|&b| !self.is_exact[b])
+            .filter(|&b| !self.cut.is_exact[b])
             .collect();
         for &b in &not_exact {
-            for &need in &self.blocks.blocks[b].needs {
-                if !self.is_exact[need] {
+            for &need in &self.cut.blocks.blocks[b].needs {
+                if !self.cut.is_exact[need] {
                     sets.join([b, need]);
                 }
             }
@@ -149,24 +154,27 @@ impl Parts {
         control: &mut Control,
     ) -> PartRun {
         let mut blocks: Vec<usize> = group.to_vec();
-        let taken = self.blocks.with_needs(group.iter().copied());
+        let taken = self.cut.blocks.with_needs(group.iter().copied());
         for of in &self.together {
-            if of.iter().any(|b| taken.contains(b) && !self.is_exact[*b]) {
+            if of
+                .iter()
+                .any(|b| taken.contains(b) && !self.cut.is_exact[*b])
+            {
                 blocks.extend(of);
             }
         }
-        let blocks = self.blocks.with_needs(blocks);
+        let blocks = self.cut.blocks.with_needs(blocks);
         let unknowns: Vec<usize> = blocks
             .iter()
-            .flat_map(|&b| self.blocks.blocks[b].unknowns.iter().copied())
+            .flat_map(|&b| self.cut.blocks.blocks[b].unknowns.iter().copied())
             .collect();
         let used: Vec<Used> = blocks
             .iter()
             .flat_map(|&b| {
-                self.blocks.blocks[b]
+                self.cut.blocks.blocks[b]
                     .equations
                     .iter()
-                    .map(|&e| self.used[e])
+                    .map(|&e| self.cut.used[e])
             })
             .collect();
         if unknowns.len() > LARGEST_SQUARE {
@@ -185,7 +193,7 @@ impl Parts {
             Some(mut follower) => {
                 let homotopy = follower.homotopy_mut();
                 for (k, &used) in used.iter().enumerate() {
-                    let scale = self.unit.powi(self.power_of(used));
+                    let scale = self.cut.unit.powi(self.power_of(used));
                     homotopy.rights[k] = Right::polynomial(&self.rights_of(used, rights), scale);
                 }
                 follower
@@ -214,12 +222,12 @@ impl Parts {
         let equation = |used: Used| {
             let (name, products) = match used {
                 Used::Row(row) => {
-                    let row = &self.system.rows[row];
+                    let row = &self.cut.system.rows[row];
                     let products = row.products.iter().map(|p| p.map(entry));
-                    (self.name(row.index), products.collect())
+                    (self.cut.name(row.index), products.collect())
                 }
                 Used::Held(u) => {
-                    let name = format!("{} stays put", self.system.unknowns[u].name);
+                    let name = format!("{} stays put", self.cut.system.unknowns[u].name);
                     (
                         name,
                         vec![Product::new(2, value(entry(Some(u))), Form::One)],
@@ -237,16 +245,13 @@ impl Parts {
         let beside = self.looked_at_in(unknowns);
         let beside = beside.map(|k| {
             (
-                equation(Used::Row(self.redundant[k])),
+                equation(Used::Row(self.cut.redundant[k])),
                 self.within(k, rights),
             )
         });
-        let d = self.problem.dimension;
-        let coordinates = self
-            .system
-            .coordinates
-            .iter()
-            .map(|u| local.get(u).copied());
+        let d = self.cut.problem.dimension;
+        let coordinates = self.cut.system.coordinates.iter();
+        let coordinates = coordinates.map(|u| local.get(u).copied());
         let coordinates: Vec<Option<usize>> = coordinates.collect();
         let is_here = |points: &&Vec<usize>| {
             let mut places = points.iter().flat_map(|p| (p * d)..(p * d + d));
@@ -258,24 +263,13 @@ impl Parts {
             }
             Extent::Sweep { points } => is_here(&&points.to_vec()),
         });
-        let nonzero = self.system.nonzero.iter().filter(|vector| {
-            let mut of = vector.unknowns(d);
-            of.all(|u| local.contains_key(&u))
-        });
-        let nonzero = nonzero.map(|vector| Nonzero {
-            name: vector.name.clone(),
-            forms: array(|axis| match axis < d {
-                true => vector.forms[axis].map(|e| entry(e.unknown())),
-                false => Form::Difference(Entry::Zero, Entry::Zero),
-            }),
-        });
         let mut homotopy = Homotopy::of_part(Part {
-            nonzero: nonzero.collect(),
+            nonzero: self.cut.system.nonzero_in(d, &local),
             dimension: d,
-            unit: self.unit,
+            unit: self.cut.unit,
             unknowns: unknowns
                 .iter()
-                .map(|&u| self.system.unknowns[u].clone())
+                .map(|&u| self.cut.system.unknowns[u].clone())
                 .collect(),
             equations: equations.collect(),
             followed: self.followed.iter().filter(is_here).cloned().collect(),
@@ -283,7 +277,7 @@ impl Parts {
             beside: beside.collect(),
             coordinates,
         });
-        let names = self.problem.points.iter().map(|p| p.name.clone());
+        let names = self.cut.problem.points.iter().map(|p| p.name.clone());
         homotopy.point_names = names.collect();
         homotopy
     }
@@ -325,8 +319,8 @@ impl Parts {
             ..out
         };
         for (&u, polynomial) in exact {
-            if self.system.unknowns[u].role == Role::Positive && !is_positive(polynomial) {
-                let name = &self.system.unknowns[u].name;
+            if self.cut.system.unknowns[u].role == Role::Positive && !is_positive(polynomial) {
+                let name = &self.cut.system.unknowns[u].name;
                 let words = format!("{name} does not stay positive");
                 return undefined(out, words);
             }

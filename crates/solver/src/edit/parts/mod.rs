@@ -18,8 +18,8 @@ pub(super) mod senses;
 mod standing;
 mod words;
 
-use crate::blocks::{Account, Blocks, Combination, Cut, Given, Singular, System, Used, Verdict};
-use crate::constraint::{Entry, Posed, Record, try_lower_all};
+use crate::blocks::{Account, Combination, Cut, Given, Used, Verdict};
+use crate::constraint::try_lower_all;
 use crate::edit::ending::{Astray, Edited, Ending, Keep, Limit, Orientations};
 use crate::edit::lowered;
 use crate::edit::open::{Moved, OpenError, furthest, reached};
@@ -53,14 +53,9 @@ impl Clone for Followers {
 /// A sketch and its figure.
 #[derive(Debug, Clone)]
 pub(super) struct Parts {
-    problem: Problem,
     options: Options,
-    record: Record,
-    /// The power of the unit of length of each of the problem's equations.
-    powers: Vec<i32>,
-    system: System,
-    used: Vec<Used>,
-    redundant: Vec<usize>,
+    /// Its equations, and how they are cut.
+    cut: Cut,
     /// What those used say, and for each redundant row how it follows from them, if that was found.
     given: Vec<Given>,
     follows: Vec<Option<Combination>>,
@@ -68,19 +63,9 @@ pub(super) struct Parts {
     proved: Vec<bool>,
     /// How the figure stands to each.
     verdicts: Vec<Verdict>,
-    free: Vec<usize>,
-    blocks: Blocks,
-    /// Blocks of one equation that is linear in exactly known numbers.
-    is_exact: Vec<bool>,
-    /// Whose equation each of the problem's is: objects, constraints, none, distances.
-    owners: Vec<usize>,
     /// Blocks that are followed together if any of them moves: those of points of which the orientation is a sense, and
     /// those of vectors that must not vanish.
     together: Vec<BTreeSet<usize>>,
-    /// For each object its radius, if it is a circle.
-    numbers: Vec<Option<usize>>,
-    /// See [`Cut::told`].
-    told: (Vec<Vec<Entry>>, Vec<Posed>),
     /// Points of which the orientation is a sense that constraints leave open: followed always.
     senses: Vec<Vec<usize>>,
     /// Those, and points that distances join, which are followed where all of them are in one part.
@@ -88,12 +73,9 @@ pub(super) struct Parts {
     /// Lines along an axis and arcs, which must not vanish: followed always.
     segments: Vec<Segment>,
     figure: Figure,
-    /// Where the drawing was singular: what was so about it.
-    singular: Option<Singular>,
     /// Circles that touch lines by their numbers, which have equations that were added; and the problem without these.
     contacts: Vec<contacts::Kept>,
     plain: Option<Box<Problem>>,
-    unit: f64,
     moved: Moved,
     ready: Followers,
     /// By how much unknowns that are held otherwise change on the way, in the unit of the problem.
@@ -123,7 +105,7 @@ impl Parts {
     ) -> Result<Self, OpenError> {
         let (mut parts, rights) = Self::assemble(problem, options).map_err(refuse)?;
         match parts.lead(&rights, control) {
-            Ok(()) if parts.singular.is_some() => {
+            Ok(()) if parts.cut.singular.is_some() => {
                 parts.find_other(problem, 0, control);
                 Ok(parts)
             }
@@ -148,27 +130,14 @@ impl Parts {
         way: u64,
     ) -> Result<(Self, Vec<Vec<Real>>), String> {
         let asked = problem;
-        let (cut, contacts) = contacts::followed(asked, Cut::drawn(asked, way)?, way);
+        let (mut cut, contacts) = contacts::followed(asked, Cut::drawn(asked, way)?, way);
+        let rights = std::mem::take(&mut cut.rights);
         let Cut {
             problem,
             system,
-            used,
-            redundant,
-            free,
-            blocks,
-            is_exact,
-            rights,
-            powers,
-            numbers,
-            told,
-            record,
             unit,
-            owners,
-            has_twins: _,
-            own: _,
-            singular,
-            drawn: _,
-        } = cut;
+            ..
+        } = &cut;
         let mut plain = problem.clone();
         plain.constraints.truncate(asked.constraints.len());
         let plain = (!contacts.is_empty()).then(|| Box::new(plain));
@@ -188,40 +157,27 @@ impl Parts {
             followed: senses::followed(asked),
             contacts,
             plain,
-            segments: segments(&problem, |a, b, axis| {
+            segments: segments(problem, |a, b, axis| {
                 let place = |p: usize| system.coordinates[p * problem.dimension + axis];
                 place(a) == place(b)
             }),
-            problem,
             options: Options {
                 space: crate::track::Space::Full,
                 reverse: false,
                 max_steps: options.max_steps.min(MOST_TUBES),
                 ..options.clone()
             },
-            record,
-            powers,
             given: Vec::new(),
             follows: Vec::new(),
             proved: Vec::new(),
             verdicts: Vec::new(),
-            used,
-            redundant,
-            free,
-            is_exact,
             together: Vec::new(),
-            owners,
-            numbers,
-            told,
             figure,
-            singular,
-            unit,
             moved: Moved::default(),
             ready: Followers::default(),
             led: HashMap::new(),
             looked_at: Vec::new(),
-            blocks,
-            system,
+            cut,
         };
         parts.drop_flat_triples();
         parts.together = parts.bound_together();
@@ -253,8 +209,8 @@ impl Parts {
 
     /// Triples of which two points are one and the same have no orientation.
     fn drop_flat_triples(&mut self) {
-        let d = self.problem.dimension;
-        let coordinates = &self.system.coordinates;
+        let d = self.cut.problem.dimension;
+        let coordinates = &self.cut.system.coordinates;
         let place = |p: usize| &coordinates[p * d..(p + 1) * d];
         let differ = |points: &Vec<usize>| {
             let mut places: Vec<&[usize]> = points.iter().map(|&p| place(p)).collect();
@@ -266,14 +222,16 @@ impl Parts {
     }
 
     fn bound_together(&self) -> Vec<BTreeSet<usize>> {
-        let d = self.problem.dimension;
+        let d = self.cut.problem.dimension;
         let blocks = |unknowns: Vec<usize>| {
-            let blocks = unknowns.into_iter().map(|u| self.blocks.of_unknown[u]);
+            let blocks = unknowns.into_iter().map(|u| self.cut.blocks.of_unknown[u]);
             blocks.collect()
         };
         let senses = self.senses.iter().map(|points| {
             let places = points.iter().flat_map(|p| (p * d)..(p * d + d));
-            places.map(|place| self.system.coordinates[place]).collect()
+            places
+                .map(|place| self.cut.system.coordinates[place])
+                .collect()
         });
         let segments = self.segments.iter().map(|segment| {
             let axes = match segment.extent {
@@ -282,9 +240,11 @@ impl Parts {
             };
             let points = segment.extent.points().iter();
             let places = points.flat_map(|p| axes.clone().map(move |axis| p * d + axis));
-            places.map(|place| self.system.coordinates[place]).collect()
+            places
+                .map(|place| self.cut.system.coordinates[place])
+                .collect()
         });
-        let vectors = self.system.nonzero.iter();
+        let vectors = self.cut.system.nonzero.iter();
         let vectors = vectors.map(|vector| vector.unknowns(d).collect());
         let rows = self
             .looked_at
@@ -295,7 +255,7 @@ impl Parts {
     }
 
     pub fn problem(&self) -> &Problem {
-        self.plain.as_deref().unwrap_or(&self.problem)
+        self.plain.as_deref().unwrap_or(&self.cut.problem)
     }
 
     pub fn moved(&self) -> Moved {
@@ -308,12 +268,12 @@ impl Parts {
     }
 
     fn points_of(&self, figure: &Figure) -> Vec<[Interval; 3]> {
-        let (d, unit) = (self.problem.dimension, point(self.unit));
+        let (d, unit) = (self.cut.problem.dimension, point(self.cut.unit));
         let coordinate = |p: usize, axis: usize| match axis < d {
-            true => figure.enclosure(self.system.coordinates[p * d + axis]) * unit,
+            true => figure.enclosure(self.cut.coordinate(p, axis)) * unit,
             false => point(0.0),
         };
-        (0..self.problem.points.len())
+        (0..self.cut.problem.points.len())
             .map(|p| array(|axis| coordinate(p, axis)))
             .collect()
     }
@@ -326,14 +286,20 @@ impl Parts {
     fn objects_of(&self, figure: &Figure) -> Vec<Located> {
         let points = self.points_of(figure);
         let at = |u: usize| figure.enclosure(u);
-        let system = &self.system;
-        system.locate(&self.problem, &self.told, &points, self.unit, at)
+        let system = &self.cut.system;
+        system.locate(
+            &self.cut.problem,
+            &self.cut.told,
+            &points,
+            self.cut.unit,
+            at,
+        )
     }
 
     fn distance(&self, figure: &Figure) -> f64 {
         let apart = furthest(&self.points(), &self.points_of(figure));
         // Where nothing moved the enclosures are of one and the same point.
-        if apart > 1e-15 * self.unit {
+        if apart > 1e-15 * self.cut.unit {
             apart
         } else {
             0.0
@@ -343,13 +309,13 @@ impl Parts {
     /// Follows the figure as its dimensions change.
     fn continued(&mut self, settings: &[Setting], keep: Keep, control: &mut Control) -> Edited {
         let clock = Instant::now();
-        let mut problem = self.problem.clone();
+        let mut problem = self.cut.problem.clone();
         for setting in settings {
             setting.apply(&mut problem);
         }
         let mut astray = None;
         let (edited, reached) = match lowered(&problem, |problem| {
-            try_lower_all(problem, Some(&self.record))
+            try_lower_all(problem, Some(&self.cut.record))
         }) {
             Err(fault) => {
                 let stop = Stop::new(StopKind::Refused, fault);
@@ -388,7 +354,7 @@ impl Parts {
         if let Some((figure, record, rights, verdicts)) = reached
             && keep.is_taken(&edited)
         {
-            (self.figure, self.record, self.problem) = (figure, record, problem);
+            (self.figure, self.cut.record, self.cut.problem) = (figure, record, problem);
             if let Some(plain) = &mut self.plain {
                 settings.iter().for_each(|setting| setting.apply(plain));
             }
@@ -434,7 +400,9 @@ impl Parts {
             let values = settings.iter();
             Astray {
                 t: *t,
-                values: values.map(|s| s.between(&self.problem, there)).collect(),
+                values: values
+                    .map(|s| s.between(&self.cut.problem, there))
+                    .collect(),
                 stop: stop.clone(),
                 account: self.account_of(|k| with_way(k, self.verdicts[k])),
             }
@@ -463,7 +431,7 @@ impl Parts {
                 return;
             }
             let wide = (self.options.tube_radius, std::mem::take(&mut self.ready));
-            self.options.tube_radius = Some(radius * self.unit);
+            self.options.tube_radius = Some(radius * self.cut.unit);
             let again = self.follow(rights, control);
             (self.options.tube_radius, self.ready) = wide;
             run.steps += again.steps;
@@ -480,13 +448,13 @@ impl Parts {
 
     /// Why a run ends at a line or arc that shrinks to nothing, and where, if it does.
     fn lost_segment(&self, settings: &[Setting], run: &ArcRun) -> Option<(Stop, (f64, f64))> {
-        let (head, d) = (self.problem.distances.len(), self.problem.dimension);
+        let head = self.cut.problem.distances.len();
         let reversed = settings.iter().filter_map(|s| {
             let (from, to) = (self.value(s.index), s.value());
-            Reversed::new(&self.problem, s.index.checked_sub(head)?, from, to)
+            Reversed::new(&self.cut.problem, s.index.checked_sub(head)?, from, to)
         });
         let reversed: Vec<Reversed> = reversed.collect();
-        let place = |p: usize, axis: usize| self.system.coordinates[p * d + axis];
+        let place = |p: usize, axis: usize| self.cut.coordinate(p, axis);
         let is_same = |a: usize, b: usize, axis: usize| place(a, axis) == place(b, axis);
         let is_zero = |p: usize, axis: usize| self.figure.enclosure(place(p, axis)) == point(0.0);
         let is_asked = |object: usize| {
@@ -494,12 +462,22 @@ impl Parts {
             segment.is_some_and(|s| reversed.iter().any(|r| r.is_of(s, is_same, is_zero)))
         };
         let (kept, t) = first_lost(&run.segments, run.t, is_asked)?;
-        Some((stop(&self.problem, kept), t))
+        Some((stop(&self.cut.problem, kept), t))
     }
 
     /// What right-hand sides of an equation are divided by. Every product of it has the same power of the unit.
     fn scale(&self, index: usize) -> f64 {
-        self.unit.powi(self.powers[index])
+        self.cut.unit.powi(self.cut.powers[index])
+    }
+
+    /// An edit that is reached where the figure is.
+    fn standing_still(&self) -> Edited {
+        let run = ArcRun {
+            end: ArcEnd::Reached(self.figure.clone()),
+            t: (1.0, 1.0),
+            ..ArcRun::stopped(Stop::new(StopKind::Enough, ""))
+        };
+        self.edited(&[], run, self.scope())
     }
 
     fn edited(&self, settings: &[Setting], run: ArcRun, account: Account) -> Edited {
@@ -508,7 +486,7 @@ impl Parts {
         let t = (!is_reached).then_some(t);
         let dimensions = settings
             .iter()
-            .map(|s| s.at(&self.problem, self.value(s.index), t));
+            .map(|s| s.at(&self.cut.problem, self.value(s.index), t));
         let dimensions = dimensions.collect();
         let (ending, reached) = match run.end {
             ArcEnd::Reached(figure) => (Ending::Reached, Some(figure)),
@@ -542,10 +520,10 @@ impl Parts {
 
     /// What is special about a fold's figure.
     fn limit(&self, fold: &Fold, orientations: &[Orientation]) -> Limit {
-        let d = self.problem.dimension;
-        let motion = (0..self.problem.points.len()).map(|p| {
+        let d = self.cut.problem.dimension;
+        let motion = (0..self.cut.problem.points.len()).map(|p| {
             array(|axis| match axis < d {
-                true => fold.velocity[self.system.coordinates[p * d + axis]],
+                true => fold.velocity[self.cut.coordinate(p, axis)],
                 false => 0.0,
             })
         });
@@ -558,7 +536,7 @@ impl Parts {
 
     /// What a dimension is now: an enclosure.
     pub fn value(&self, index: usize) -> Interval {
-        Setting::now(&self.problem, index).value()
+        Setting::now(&self.cut.problem, index).value()
     }
 }
 
