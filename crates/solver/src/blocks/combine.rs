@@ -201,16 +201,21 @@ impl<'s> Combined<'s> {
             }
         }
         let places = places.into_iter().collect::<Option<Vec<Vector>>>()?;
-        let reference = &self.problem.homotopy.reference;
-        let here: Vec<Vector> = reference.iter().map(|&p| places[p]).collect();
-        let frame = Placement::through(d, &here)?;
-        let mut seen: Vec<Vector> = places.iter().map(|p| frame.seen(p)).collect();
-        // Exactly where they are by choice.
-        for (k, &p) in reference.iter().enumerate() {
-            seen[p][k..].fill(point(0.0));
-        }
-        Some(seen)
+        seen(self.problem, &places)
     }
+}
+
+/// Places as the problem's reference sees them; `None`: it has no frame there that can be enclosed.
+pub(crate) fn seen(problem: &Problem, places: &[Vector]) -> Option<Vec<Vector>> {
+    let reference = &problem.homotopy.reference;
+    let here: Vec<Vector> = reference.iter().map(|&p| places[p]).collect();
+    let frame = Placement::through(problem.dimension, &here)?;
+    let mut seen: Vec<Vector> = places.iter().map(|p| frame.seen(p)).collect();
+    // Exactly where they are by choice.
+    for (k, &p) in reference.iter().enumerate() {
+        seen[p][k..].fill(point(0.0));
+    }
+    Some(seen)
 }
 
 /// One solution of each class, and its mirror image where some point is off the line (in space: the plane) of the mirror.
@@ -250,7 +255,7 @@ fn choices(block: &Problem, index: usize, solutions: &[Solution], shared: &[usiz
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::blocks::clusters;
+    use crate::blocks::{clusters, enclosed};
     use crate::track::prove;
 
     /// A strip of triangles on a common side each with the next: all figures are known.
@@ -291,10 +296,7 @@ mod tests {
             for distance in &problem.distances {
                 let [a, b] = distance.points.map(|p| figure[p]);
                 let squared = (0..3).fold(point(0.0), |sum, k| sum + (a[k] - b[k]).sqr());
-                let target = match &distance.target {
-                    crate::problem::Target::Length(x) => crate::interval::enclose(x).sqr(),
-                    crate::problem::Target::SquaredLength(x) => crate::interval::enclose(x),
-                };
+                let [_, target] = enclosed(&distance.target);
                 assert!(squared.inf() <= target.sup() && target.inf() <= squared.sup());
                 assert!(squared.wid() < 1e-9);
             }

@@ -3,7 +3,7 @@
 use super::drawn::{Drawn, Floats, look};
 use super::follows::{Combination, Given, combination};
 use super::singular::Singular;
-use super::{Account, Block, Blocks, COARSE, Choice, Held, Ruler, System, Verdict};
+use super::{Account, Block, Blocks, COARSE, Choice, Held, Row, Ruler, System, Verdict};
 use crate::constraint::{
     Entry, Fault, Lowered, Owner, Posed, Record, Role, Tail, own_number, try_lower_all,
 };
@@ -11,7 +11,6 @@ use crate::equations::Form;
 use crate::interval::{Interval, Real};
 use crate::problem::{Decimal, Problem};
 use crate::system::typical_length;
-use std::collections::BTreeSet;
 
 /// An equation of the square system.
 #[derive(Debug, Clone, Copy)]
@@ -24,7 +23,7 @@ pub(crate) enum Used {
 
 /// A sketch in its own frame, and the blocks that it falls into. It need not have as many equations as unknowns: what
 /// nothing determines is held where it is drawn, what follows from other constraints at the figure is left out.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Cut {
     /// The problem, without a bend.
     pub problem: Problem,
@@ -129,6 +128,13 @@ impl Blocks {
     }
 }
 
+/// The equations of a choice, and what is held in it.
+pub(crate) fn square(choice: &Choice) -> Vec<Used> {
+    let held = choice.free.iter().map(|&u| Used::Held(u));
+    let used = choice.used.iter().map(|&row| Used::Row(row));
+    used.chain(held).collect()
+}
+
 /// For each block whether it is one linear equation in numbers known exactly.
 pub(crate) fn is_exact(blocks: &Blocks, used: &[Used], system: &System) -> Vec<bool> {
     let mut exact: Vec<bool> = Vec::with_capacity(blocks.blocks.len());
@@ -169,11 +175,10 @@ impl Cut {
         let has_twins = has_twins(&lowered.tail);
         let unit = typical_length(&problem);
         let at = system.sketch(unit);
-        let coordinates: BTreeSet<usize> = system.coordinates.iter().copied().collect();
-        let later = |u: usize| coordinates.contains(&u).into();
+        let later = system.later();
         // What is fixed is left out last, dimensions after what has no number.
         let kept = |row: usize| keep(&problem, lowered.owners[system.rows[row].index]);
-        let mut choice = Choice::new(&system, &at, later, kept, COARSE);
+        let mut choice = Choice::new(&system, &at, &later, kept, COARSE);
         let equations = &lowered.tail.equations;
         let rows = system.rows.iter();
         let structural = rows.map(|row| !owner_is_dimension(lowered.owners[row.index]));
@@ -185,16 +190,14 @@ impl Cut {
             let owner = |row: usize| lowered.owners[system.rows[row].index];
             let mut place = Singular::new(&problem, &system, &rows, owner);
             if let Some(off) = off {
-                choice = Choice::new(&system, &off, later, kept, COARSE);
+                choice = Choice::new(&system, &off, &later, kept, COARSE);
                 place.moved = Some(system.moved(&off, problem.dimension, unit));
                 drawn = Some(system.values.clone());
                 moved_rights = system.set_off(&off, unit, |index| equations[index].target());
             }
             singular = Some(place);
         }
-        let held = choice.free.iter().map(|&u| Used::Held(u));
-        let used = choice.used.iter().map(|&r| Used::Row(r));
-        let used: Vec<Used> = used.chain(held).collect();
+        let used = square(&choice);
         let blocks = Blocks::of(&used, &system)
             .ok_or("its equations do not match its unknowns: the sketch is singular")?;
         let is_exact = is_exact(&blocks, &used, &system);
@@ -298,17 +301,59 @@ impl Cut {
     }
 
     /// What a claim about figures is proved of. `verdict`: how they stand to each row that was left out, by place.
-    pub fn account(&self, verdict: impl Fn(usize) -> Verdict) -> Account {
-        let value = |u: usize| self.system.values[u].enclose();
-        let left_out = self.redundant.iter().enumerate();
-        let left_out =
-            left_out.map(|(k, &row)| (self.name(self.system.rows[row].index), verdict(k)));
-        account(&self.used, &self.system, value, left_out)
+    /// `value`: of what is held, in the unit of the problem.
+    pub fn account(
+        &self,
+        value: impl Fn(usize) -> Interval,
+        verdict: impl Fn(usize) -> Verdict,
+    ) -> Account {
+        let mut account = Account::default();
+        for used in &self.used {
+            match *used {
+                Used::Row(_) => account.equations += 1,
+                Used::Held(u) => {
+                    let at = value(u);
+                    account.held.push(Held {
+                        what: self.system.unknowns[u].name.clone(),
+                        at: (at.inf(), at.sup()),
+                    });
+                }
+            }
+        }
+        for k in 0..self.redundant.len() {
+            account.leave_out(self.name_left_out(k), verdict(k));
+        }
+        account
+    }
+
+    /// What people call a row that was left out, by place.
+    pub fn name_left_out(&self, redundant: usize) -> String {
+        self.name(self.left_out(redundant).index)
+    }
+
+    /// A row that was left out, by place.
+    pub fn left_out(&self, redundant: usize) -> &Row {
+        &self.system.rows[self.redundant[redundant]]
+    }
+
+    /// Whose equation a row is, see [`Cut::owners`].
+    pub fn owner(&self, row: usize) -> usize {
+        self.owners[self.system.rows[row].index]
+    }
+
+    /// The power of the unit of length that an unknown has.
+    pub fn unit_of(&self, unknown: usize) -> f64 {
+        self.unit.powi(self.system.unknowns[unknown].power)
+    }
+
+    /// The unknown that a coordinate of a point is.
+    pub fn coordinate(&self, point: usize, axis: usize) -> usize {
+        self.system.coordinates[point * self.problem.dimension + axis]
     }
 
     /// How a row that was left out, by place, is measured.
     pub fn ruler(&self, redundant: usize, tolerance: Option<f64>) -> Ruler {
-        let index = self.system.rows[self.redundant[redundant]].index;
+        let index = self.left_out(redundant).index;
         let (unit, power) = (self.unit, self.powers[index]);
         Ruler::new(&self.problem, self.owners[index], (unit, power), tolerance)
     }
@@ -330,31 +375,6 @@ impl Cut {
     pub fn name(&self, equation: usize) -> String {
         name(&self.problem, self.owners[equation])
     }
-}
-
-/// What a claim is proved of: the equations used, what is held (with its `value` in the unit of the problem), and the names of
-/// what was left out, with what is known of it.
-pub(crate) fn account(
-    used: &[Used],
-    system: &System,
-    value: impl Fn(usize) -> Interval,
-    left_out: impl Iterator<Item = (String, Verdict)>,
-) -> Account {
-    let mut account = Account::default();
-    for used in used {
-        match *used {
-            Used::Row(_) => account.equations += 1,
-            Used::Held(u) => {
-                let at = value(u);
-                account.held.push(Held {
-                    what: system.unknowns[u].name.clone(),
-                    at: (at.inf(), at.sup()),
-                });
-            }
-        }
-    }
-    left_out.for_each(|(name, verdict)| account.leave_out(name, verdict));
-    account
 }
 
 /// What people call the owner of an equation, a count of objects, constraints, none, and distances.

@@ -200,6 +200,16 @@ pub fn combination(row: &Row, given: &[Given]) -> Option<Combination> {
 }
 
 impl Combination {
+    /// Whether the equations that must keep their right-hand sides do so.
+    fn are_kept<'r>(
+        &self,
+        of: impl Fn(usize) -> Vec<Real>,
+        before: impl Fn(usize) -> Option<&'r Rational>,
+    ) -> bool {
+        let mut kept = self.kept.iter();
+        kept.all(|&k| constant(&of(k)).as_ref() == before(k))
+    }
+
     /// Whether with these right-hand sides, polynomials in t, the equation holds wherever the given ones do, for every t.
     /// `before`: the right-hand sides with which it was found.
     pub fn holds<'r>(
@@ -208,8 +218,7 @@ impl Combination {
         of: impl Fn(usize) -> Vec<Real>,
         before: impl Fn(usize) -> Option<&'r Rational>,
     ) -> bool {
-        let is_kept = |&k: &usize| constant(&of(k)).as_ref() == before(k);
-        if !self.kept.iter().all(is_kept) {
+        if !self.are_kept(&of, before) {
             return false;
         }
         let mut terms: Vec<(Rational, Vec<Real>)> = vec![(-Rational::one(), right.to_vec())];
@@ -239,8 +248,7 @@ impl Combination {
         of: impl Fn(usize) -> Vec<Real>,
         before: impl Fn(usize) -> Option<&'r Rational>,
     ) -> bool {
-        let is_kept = |&k: &usize| constant(&of(k)).as_ref() == before(k);
-        if !self.kept.iter().all(is_kept) {
+        if !self.are_kept(&of, before) {
             return false;
         }
         let off = &number(right) - &self.value(of);

@@ -17,20 +17,29 @@ pub enum Solved {
     NoFormula,
 }
 
+impl Solved {
+    /// From the roots of an equation of one unknown, each of which tells a solution.
+    fn from(
+        roots: Result<Vec<Number>, &'static str>,
+        solution: impl Fn(Number) -> Vec<Number>,
+    ) -> Self {
+        match roots {
+            Ok(roots) => Solved::All(roots.into_iter().map(solution).collect()),
+            Err(why) => Solved::Doubt(why.into()),
+        }
+    }
+}
+
 /// The solutions of a block by formula, those first at which the determinant of the derivatives certainly has the given
 /// sign.
 pub fn solve(rows: &[Local], sense: Option<i8>) -> Solved {
     let is_linear = rows.iter().all(|row| row.quadratic.is_empty());
     let solved = match rows {
         _ if is_linear => linear(rows),
-        [row] => match roots(
-            &Number::halves(2 * row.q(0, 0)),
-            &row.linear[0],
-            &row.constant,
-        ) {
-            Roots::These(roots) => Solved::All(roots.into_iter().map(|x| vec![x]).collect()),
-            Roots::Doubt(why) => Solved::Doubt(why),
-        },
+        [row] => {
+            let square = Number::halves(2 * row.q(0, 0));
+            Solved::from(roots(&square, &row.linear[0], &row.constant), |x| vec![x])
+        }
         [one, other] => two(one, other),
         _ => Solved::NoFormula,
     };
@@ -86,6 +95,14 @@ fn middle(solution: &[Number]) -> Vec<f64> {
     solution.iter().map(|x| x.enclosure().mid()).collect()
 }
 
+/// How far a number is at least from zero.
+fn size(x: &Number) -> f64 {
+    match x.sign() {
+        Some(0) | None => 0.0,
+        _ => x.enclosure().mig(),
+    }
+}
+
 /// Elimination: if no pivot may be zero, the equations have exactly one solution.
 fn linear(rows: &[Local]) -> Solved {
     let n = rows.len();
@@ -96,10 +113,6 @@ fn linear(rows: &[Local]) -> Solved {
             row.linear.iter().cloned().chain([right]).collect()
         })
         .collect();
-    let size = |x: &Number| match x.sign() {
-        Some(0) | None => 0.0,
-        _ => x.enclosure().mig(),
-    };
     for k in 0..n {
         let best = (k..n).max_by(|&a, &b| size(&rows[a][k]).total_cmp(&size(&rows[b][k])));
         rows.swap(k, best.unwrap_or(k));
@@ -126,37 +139,30 @@ fn linear(rows: &[Local]) -> Solved {
     Solved::All(vec![out])
 }
 
-enum Roots {
-    These(Vec<Number>),
-    Doubt(String),
-}
-
-/// The real roots of a x² / 2 + b x + c.
-fn roots(a: &Number, b: &Number, c: &Number) -> Roots {
+/// The real roots of a x² / 2 + b x + c, or why they are in doubt.
+fn roots(a: &Number, b: &Number, c: &Number) -> Result<Vec<Number>, &'static str> {
     let zero = Number::halves(0);
     match a.sign() {
         Some(0) => {
-            return match zero.minus(c).over(b) {
-                Some(x) => Roots::These(vec![x]),
-                None => Roots::Doubt("its linear equation may say nothing".into()),
-            };
+            let root = zero.minus(c).over(b);
+            return root
+                .map(|x| vec![x])
+                .ok_or("its linear equation may say nothing");
         }
-        None => return Roots::Doubt("whether it is linear is not certain".into()),
+        None => return Err("whether it is linear is not certain"),
         Some(_) => {}
     }
     let discriminant = b.times(b).minus(&Number::halves(4).times(a).times(c));
     let root = match discriminant.sign() {
-        Some(-1) => return Roots::These(Vec::new()),
+        Some(-1) => return Ok(Vec::new()),
         Some(1) => discriminant.sqrt(),
         _ => None,
     };
-    let Some(root) = root else {
-        return Roots::Doubt("two solutions fall together, or nearly so".into());
-    };
+    let root = root.ok_or("two solutions fall together, or nearly so")?;
     let minus_b = zero.minus(b);
     let both = [minus_b.minus(&root), minus_b.plus(&root)];
     let both = both.iter().filter_map(|above| above.over(a));
-    Roots::These(both.collect())
+    Ok(both.collect())
 }
 
 /// Two equations of two unknowns of which a combination is linear: circles, lines, and what is like them.
@@ -184,11 +190,7 @@ fn two(one: &Local, other: &Local) -> Solved {
         }
     };
     // x_k = s x_l + w.
-    let size = |k: usize| match line.linear[k].sign() {
-        Some(0) | None => 0.0,
-        _ => line.linear[k].enclosure().mig(),
-    };
-    let k = usize::from(size(1) > size(0));
+    let k = usize::from(size(&line.linear[1]) > size(&line.linear[0]));
     let l = 1 - k;
     let zero = Number::halves(0);
     let (Some(s), Some(w)) = (
@@ -214,20 +216,12 @@ fn two(one: &Local, other: &Local) -> Solved {
         .times(&w)
         .plus(&curved.linear[k].times(&w))
         .plus(&curved.constant);
-    match roots(&a, &b, &c) {
-        Roots::Doubt(why) => Solved::Doubt(why),
-        Roots::These(roots) => Solved::All(
-            roots
-                .into_iter()
-                .map(|x| {
-                    let mut solution = vec![zero.clone(); 2];
-                    solution[k] = s.times(&x).plus(&w);
-                    solution[l] = x;
-                    solution
-                })
-                .collect(),
-        ),
-    }
+    Solved::from(roots(&a, &b, &c), |x| {
+        let mut solution = vec![zero.clone(); 2];
+        solution[k] = s.times(&x).plus(&w);
+        solution[l] = x;
+        solution
+    })
 }
 
 /// A solution in a smaller box, by two steps of Krawczyk's operator, which keeps every zero of a box.

@@ -3,11 +3,11 @@
 use crate::constraint::{Entry, Lowered, Nonzero, Posed, Role, Unknown};
 use crate::equations::Form;
 use crate::interval::{Interval, Real, enclose, point as exactly};
-use crate::places::Each as _;
+use crate::places::{Each as _, array};
 use crate::problem::{Problem, Shape};
 use crate::sets::Joined;
 use crate::system::{Located, Term, locate};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 /// An equation in merged unknowns, `½ Σ factor · left · right = E(t)`.
 #[derive(Debug, Clone)]
@@ -59,6 +59,30 @@ impl System {
         };
         let shapes: Vec<&Shape> = problem.objects.iter().map(|o| &o.shape).collect();
         locate(&shapes, (own, poses), (d, unit), points, value)
+    }
+
+    /// Ranks of the unknowns in a [choice](super::Choice) of what is held: coordinates of points come after others.
+    pub fn later(&self) -> impl Fn(usize) -> u8 + use<> {
+        let coordinates: BTreeSet<usize> = self.coordinates.iter().copied().collect();
+        move |u: usize| coordinates.contains(&u).into()
+    }
+
+    /// The vectors that must not vanish of which all unknowns are in a part, in the numbers that unknowns have there.
+    pub fn nonzero_in(&self, dimension: usize, local: &HashMap<usize, usize>) -> Vec<Nonzero> {
+        let is_here = |vector: &&Nonzero| {
+            let mut of = vector.unknowns(dimension);
+            of.all(|u| local.contains_key(&u))
+        };
+        let entry = |entry: Entry| Entry::from(entry.unknown().map(|u| local[&u]));
+        let here = self.nonzero.iter().filter(is_here);
+        let here = here.map(|vector| Nonzero {
+            name: vector.name.clone(),
+            forms: array(|axis| match axis < dimension {
+                true => vector.forms[axis].map(entry),
+                false => Form::Difference(Entry::Zero, Entry::Zero),
+            }),
+        });
+        here.collect()
     }
 
     /// The unknowns' values in the sketch in floats, in a `unit` of length.

@@ -34,15 +34,14 @@ mod pinned;
 mod singular;
 mod surplus;
 
-pub(crate) use account::Ruler;
 pub use account::{Account, Held, LEAST_PART, LeftOut, Verdict, Why, rounded_down, rounded_up};
+pub(crate) use account::{Ruler, enclosed};
 pub use choose::Choice;
 pub(crate) use choose::{COARSE, FINE, FREE_FIRST, LAST};
 pub use clusters::{MOST_POINTS, clusters};
+pub(crate) use combine::seen;
 pub use combine::{Choice as CombinedChoice, Combined};
-pub(crate) use cut::{
-    Cut, Used, account, in_words, is_exact, keep, name, name as owner_name, straight,
-};
+pub(crate) use cut::{Cut, Used, in_words, is_exact, keep, name as owner_name, square, straight};
 pub use decompose::{Block, Blocks};
 pub(crate) use drawn::Floats;
 pub use figures::{BlockAccount, Chosen, Comparison, Figures, First, Sense, Way, WithSenses};

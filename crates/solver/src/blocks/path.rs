@@ -3,10 +3,9 @@
 use super::cut::{Cut, Used};
 use super::local::is_length;
 use super::number::Number;
-use crate::constraint::{Entry, Equation, Form, Nonzero, Product, value};
+use crate::constraint::{Entry, Equation, Form, Product, value};
 use crate::interval::{Real, point};
 use crate::order::InOrder;
-use crate::places::array;
 use crate::rational::Rational;
 use crate::system::{Homotopy, Part};
 use crate::track::arc::{ArcEnd, Figure};
@@ -204,15 +203,6 @@ fn homotopy(
         });
     }
     let d = cut.problem.dimension;
-    let nonzero = cut.system.nonzero.iter();
-    let nonzero = nonzero.filter(|vector| vector.unknowns(d).all(|u| local.contains_key(&u)));
-    let nonzero = nonzero.map(|vector| Nonzero {
-        name: vector.name.clone(),
-        forms: array(|axis| match axis < d {
-            true => vector.forms[axis].map(|e| entry(e.unknown())),
-            false => Form::Difference(Entry::Zero, Entry::Zero),
-        }),
-    });
     let coordinates = cut.system.coordinates.iter();
     Ok(Homotopy::of_part(Part {
         dimension: d,
@@ -222,7 +212,7 @@ fn homotopy(
             .iter()
             .map(|&u| cut.system.unknowns[u].clone())
             .collect(),
-        nonzero: nonzero.collect(),
+        nonzero: cut.system.nonzero_in(d, &local),
         equations,
         followed: Vec::new(),
         segments: Vec::new(),

@@ -6,14 +6,14 @@
 //! halves of sums of squared distances, and Δ = AB − C² > 0, the squared height is N/Δ with N = rΔ − (q₁²B − 2q₁q₂C + q₂²A); in the
 //! plane Δ = A and N = rA − q₁².
 
-use crate::blocks::{Account, LeftOut, Ruler, Verdict};
+use crate::blocks::{Account, LeftOut, Ruler, Verdict, enclosed, seen};
 use crate::interval::vector::Vector;
-use crate::interval::{Interval, ZERO, enclose};
+use crate::interval::{Interval, ZERO};
 use crate::places::Each as _;
-use crate::problem::{Problem, Target};
+use crate::problem::Problem;
 use crate::rational::Rational;
 use crate::system::told::range;
-use crate::system::{Placement, typical_length};
+use crate::system::typical_length;
 use num_bigint::BigInt;
 
 /// What the exact numbers say.
@@ -39,10 +39,7 @@ fn square(problem: &Problem, a: usize, b: usize) -> Option<Rational> {
     let is_it = |ends: [usize; 2]| ends == [a, b] || ends == [b, a];
     let mut distances = problem.distances.iter();
     let distance = distances.find(|distance| is_it(distance.points))?;
-    Some(match &distance.target {
-        Target::Length(x) => x.value() * x.value(),
-        Target::SquaredLength(x) => x.value().clone(),
-    })
+    Some(distance.target.squared())
 }
 
 /// Decides a problem that is one exact step. `None`: it is not, or the base may be degenerate.
@@ -119,18 +116,15 @@ pub fn nearly(problem: &Problem, is_own: impl Fn([usize; 2]) -> bool) -> Option<
             };
             let [a, b] = distance.points.each(|p| places[p]);
             let length = (0..3).fold(ZERO, |sum, k| sum + (a[k] - b[k]).sqr()).sqrt();
-            let wanted = match &distance.target {
-                Target::Length(length) => enclose(length),
-                Target::SquaredLength(squared) => enclose(squared).sqrt(),
-            };
             // The owner of a distance's equation: behind objects, constraints and those of none, of which there are none here.
             let epsilon = Ruler::new(problem, 1 + e, (unit, 1), None).epsilon;
+            let [wanted, _] = enclosed(&distance.target);
             let miss = length - wanted;
             let verdict = Verdict::of(miss, epsilon);
             let share = miss.mag() / epsilon;
             let is_better = best.as_ref().is_none_or(|(least, _)| share < *least);
             if let (Verdict::Met { .. }, true) = (verdict, is_better)
-                && let Some(points) = seen(problem, &places)
+                && let Some(points) = flat(problem, &places)
             {
                 let mut account = Account::default();
                 account.leave_out(problem.distance_name(e), verdict);
@@ -176,16 +170,10 @@ fn in_one_plane(problem: &Problem, [i, j]: [usize; 2], turned: bool) -> Option<V
 }
 
 /// Flat places as the reference sees them.
-fn seen(problem: &Problem, places: &[Vector]) -> Option<Vec<Vector>> {
-    let d = problem.dimension;
-    let reference = &problem.homotopy.reference;
-    let here: Vec<Vector> = reference.iter().map(|&p| places[p]).collect();
-    let frame = Placement::through(d, &here)?;
-    let mut seen: Vec<Vector> = places.iter().map(|p| frame.seen(p)).collect();
-    // Exactly where they are by choice, and as all are in one plane.
-    for (k, &p) in reference.iter().enumerate() {
-        seen[p][k..].fill(ZERO);
-    }
-    seen.iter_mut().for_each(|p| p[d - 1] = ZERO);
+fn flat(problem: &Problem, places: &[Vector]) -> Option<Vec<Vector>> {
+    let mut seen = seen(problem, places)?;
+    // As all are in one plane.
+    let last = problem.dimension - 1;
+    seen.iter_mut().for_each(|p| p[last] = ZERO);
     Some(seen)
 }

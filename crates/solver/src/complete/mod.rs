@@ -140,13 +140,7 @@ fn by_plan(
     };
     let stop = AtomicBool::new(false);
     let run = Run::new(&stop, options, options.cover);
-    let store = match &options.store {
-        Some(keep) => {
-            let opened = Store::open(keep, problem, options.cover);
-            Some((keep, opened.map_err(Unserved::Store)?))
-        }
-        None => None,
-    };
+    let store = options.opened(problem, options.cover)?;
     let result = options.watched(&run, begin, || match store {
         None => Ok(searched(&targets, &pairs, plans, &run)),
         Some((keep, store)) => kept(problem, (&targets, &pairs, plans), &run, keep, store),

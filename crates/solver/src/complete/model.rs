@@ -48,6 +48,17 @@ impl Number {
         Number { mid, rad }
     }
 
+    /// A float.
+    pub const fn exact(mid: f64) -> Self {
+        Number { mid, rad: 0.0 }
+    }
+
+    /// −x.
+    pub fn negative(self) -> Self {
+        let mid = -self.mid;
+        Number { mid, ..self }
+    }
+
     /// x + f y for a float f.
     pub fn plus(self, factor: f64, other: Number) -> Number {
         let product = factor * other.mid;
@@ -551,7 +562,7 @@ mod tests {
             let near = exact(factor) + exact(0.01) * exact(part[1]);
             prop_assert!(encloses(&f.by(number), &u, &(&x * &near)));
             prop_assert!(encloses(&f.shifted(number), &u, &(&x + &near)));
-            let sum = weighted(&f, [(number, &g), (Number { mid: -1.0, rad: 0.0 }, &f)]);
+            let sum = weighted(&f, [(number, &g), (Number::exact(-1.0), &f)]);
             prop_assert!(encloses(&sum, &u, &(&near * &y)));
             let numbers = (number, Number { mid: shift, rad: 0.001 });
             let (a, b) = (near.clone(), exact(shift) + exact(0.001) * exact(part[0]));
@@ -567,7 +578,7 @@ mod tests {
 
             // Shifted so far that it is positive, and less than so far that 0 is near.
             let shift = f.reach() * (1.0 + shift * shift * 0.01) - f.c[0];
-            let f = f.shifted(Number { mid: shift, rad: 0.0 });
+            let f = f.shifted(Number::exact(shift));
             let x = value(&f, &u, part[0]);
             let range = f.range();
             if range.lo > 0.0 {

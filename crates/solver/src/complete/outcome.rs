@@ -1,10 +1,11 @@
 //! What the search for all solutions reports.
 
 use super::choose::NoPlan;
+use super::coordinates::leave;
 use super::exact::{Nearly, Step};
 use super::parts::Searched;
 use super::search::{Run, Search, different};
-use super::store::Keep;
+use super::store::{Keep, Piece, Store};
 use super::surplus::Tested;
 use super::visit::{Found, Why};
 use crate::certificate::cover::CoverVerdict;
@@ -33,6 +34,15 @@ pub enum Status {
 }
 
 impl Status {
+    /// Of a search that leaves these parts undecided.
+    pub(super) fn of(undecided: &[Part]) -> Self {
+        match undecided {
+            [] => Status::Complete,
+            parts if parts.iter().any(|part| part.why == Why::Flexible) => Status::Flexible,
+            _ => Status::Partial,
+        }
+    }
+
     /// Its name in files.
     pub fn name(self) -> &'static str {
         match self {
@@ -275,6 +285,17 @@ impl Drop for AtTheEnd<'_> {
 }
 
 impl Options<'_> {
+    /// Opens the store that is wanted, if one is. `cover`: whether parts are kept with their covers.
+    pub(super) fn opened<F: Piece>(
+        &self,
+        problem: &Problem,
+        cover: bool,
+    ) -> Result<Option<(&Keep, Store<F>)>, Unserved> {
+        let open = |keep| Store::open(keep, problem, cover).map(|store| (keep, store));
+        let opened = self.store.as_ref().map(open).transpose();
+        opened.map_err(Unserved::Store)
+    }
+
     /// Runs a search on as many threads as wanted, beside one that looks at the clock.
     pub(super) fn watched<T: Send>(
         &self,
@@ -425,17 +446,7 @@ impl Complete {
         let mut reason = None;
         let mut undecided: Vec<Part> = Vec::new();
         for part in &found.undecided {
-            match undecided.iter_mut().find(|known| known.why == part.why) {
-                Some(known) => {
-                    known.count += 1;
-                    known.share += part.share;
-                }
-                None => undecided.push(Part {
-                    why: part.why,
-                    count: 1,
-                    share: part.share,
-                }),
-            }
+            leave(&mut undecided, part.why, 1, part.share);
         }
         undecided.order_by_key(|part| part.why);
         let mut kept = 0;
@@ -482,18 +493,11 @@ impl Complete {
             reason = Some("two solutions are too close to each other to be told apart".to_owned());
             if apart {
                 solutions.clear();
-                undecided.push(Part {
-                    why: Why::Apart,
-                    count: 1,
-                    share: 0.0,
-                });
+                leave(&mut undecided, Why::Apart, 1, 0.0);
             }
         }
         if found.undecided_count > 0 {
-            status = Status::Partial;
-            if undecided.iter().any(|part| part.why == Why::Flexible) {
-                status = Status::Flexible;
-            }
+            status = Status::of(&undecided);
         }
         if status == Status::Complete && solutions.is_empty() {
             reason = Some(
@@ -504,29 +508,19 @@ impl Complete {
         let order = search.plan.base.iter().copied();
         Complete {
             status,
-            method: Method::Plan,
-            symmetry: Symmetry::Isometries,
             count: Some(solutions.len() as u64),
-            parts: Vec::new(),
-            choices: Vec::new(),
-            first_choice: None,
-            both_ways: Vec::new(),
-            turned: Vec::new(),
             solutions,
-            tested: None,
             signed: Signed::cut(found.cut),
             reference,
             undecided,
             reason,
             boxes: found.boxes,
             driving: search.plan.parameters(),
-            constructed: None,
             plan: order
                 .chain(search.plan.steps.iter().map(|s| s.point))
                 .collect(),
-            seconds: begin.elapsed().as_secs_f64(),
-            seconds_left: None,
             cover,
+            ..Complete::empty(problem, String::new(), begin)
         }
     }
 }

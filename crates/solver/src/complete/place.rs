@@ -78,7 +78,7 @@ impl<const S: usize, const M: usize> Quantity<S, M> {
     fn minus(&self, other: &Self) -> Self {
         match (self, other) {
             (Fixed(x), Fixed(y)) => Fixed(x.plus(-1.0, *y)),
-            (Moving(f), Fixed(x)) => Moving(f.shifted(Number { mid: -x.mid, ..*x })),
+            (Moving(f), Fixed(x)) => Moving(f.shifted(x.negative())),
             (Moving(f), Moving(g)) => Moving(f.minus(g)),
             (Fixed(x), Moving(f)) => Moving(f.scaled(-1.0).shifted(*x)),
         }
@@ -257,14 +257,7 @@ pub fn place<const D: usize, const S: usize, const M: usize>(
         (&Kind::Hinge { frame, parameter }, &Known::Hinge(numbers)) => {
             let [c1, c2, q] = frame.each(|p| &points[p]);
             let a = minus(c2, c1);
-            let minus_one = Number {
-                mid: -1.0,
-                rad: 0.0,
-            };
-            let minus_foot = Number {
-                mid: -numbers.foot.mid,
-                ..numbers.foot
-            };
+            let (minus_one, minus_foot) = (Number::exact(-1.0), numbers.foot.negative());
             let v: Place<D, S, M> =
                 each(|k| weighted(&q[k], [(minus_one, &c1[k]), (minus_foot, &a[k])]));
             let [cos, sin] = angle(node, parameter);

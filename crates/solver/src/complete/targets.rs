@@ -1,7 +1,8 @@
 //! What the search is about: points, and the squares of the distances wanted.
 
-use crate::interval::{Interval, enclose, hull, point};
-use crate::problem::{Problem, Target};
+use crate::blocks::enclosed;
+use crate::interval::{Interval, hull, point};
+use crate::problem::Problem;
 use crate::track::Signs;
 
 /// The points and distances of a problem, in a unit near the typical length.
@@ -30,17 +31,10 @@ const NONE: u32 = u32::MAX;
 impl Targets {
     /// Of a problem.
     pub fn new(problem: &Problem) -> Self {
-        let wanted = |target: &Target| match target {
-            Target::Length(length) => enclose(length),
-            Target::SquaredLength(squared) => enclose(squared).sqrt(),
-        };
-        let count = problem.distances.len().max(1) as f64;
-        let mean = problem
-            .distances
-            .iter()
-            .map(|d| wanted(&d.target).mid())
-            .sum::<f64>()
-            / count;
+        let wanted = problem.distances.iter().map(|d| enclosed(&d.target));
+        let wanted: Vec<[Interval; 2]> = wanted.collect();
+        let count = wanted.len().max(1) as f64;
+        let mean = wanted.iter().map(|[length, _]| length.mid()).sum::<f64>() / count;
         let unit = 2f64.powi(mean.log2().round() as i32);
         let per_unit = point(1.0 / unit);
         let points = problem.points.len();
@@ -50,23 +44,18 @@ impl Targets {
             table[a * points + b] = index as u32;
             table[b * points + a] = index as u32;
         }
-        let squares = problem.distances.iter().map(|d| {
-            let square = match &d.target {
-                Target::Length(length) => enclose(length).sqr(),
-                Target::SquaredLength(squared) => enclose(squared),
-            };
-            square * per_unit * per_unit
-        });
+        let squares = wanted
+            .iter()
+            .map(|[_, square]| *square * per_unit * per_unit);
         Targets {
             dimension: problem.dimension,
             points,
             unit,
             edges: problem.distances.iter().map(|d| d.points).collect(),
             squares: squares.collect(),
-            lengths: problem
-                .distances
+            lengths: wanted
                 .iter()
-                .map(|d| wanted(&d.target) * per_unit)
+                .map(|[length, _]| *length * per_unit)
                 .collect(),
             signs: Signs::of(problem),
             table,

@@ -90,21 +90,11 @@ fn departure(problem: &Problem, departure: &infinity::Departure, unit: f64) -> D
         Some(ends.map(|p| problem.points[p].name.clone()))
     };
     // λ σ is a square of a length, as is Λ τ; σ and Λ are numbers.
-    let units = |p: usize| {
-        [
-            if split.inside.contains(&p) {
-                1.0
-            } else {
-                unit * unit
-            },
-            unit,
-            if split.outside.contains(&p) {
-                1.0
-            } else {
-                unit * unit
-            },
-        ]
+    let of = |numbers: &[usize], p: usize| match numbers.contains(&p) {
+        true => 1.0,
+        false => unit * unit,
     };
+    let units = |p: usize| [of(&split.inside, p), unit, of(&split.outside, p)];
     let figure = |one: &SolutionBox| {
         let number = numbers(one);
         let place = |p: usize| {

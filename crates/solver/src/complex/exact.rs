@@ -19,18 +19,18 @@ ring!(Exact, Exact::whole);
 impl Exact {
     /// Zero.
     pub fn zero() -> Self {
-        Exact {
-            re: Rational::zero(),
-            im: Rational::zero(),
-        }
+        Exact::real(Rational::zero())
     }
 
     /// A whole number.
     pub fn whole(value: i64) -> Self {
-        Exact {
-            re: Rational::from_integer(BigInt::from(value)),
-            im: Rational::zero(),
-        }
+        Exact::real(Rational::from_integer(BigInt::from(value)))
+    }
+
+    /// A real number.
+    pub fn real(re: Rational) -> Self {
+        let im = Rational::zero();
+        Exact { re, im }
     }
 
     /// Whether it is zero.
@@ -151,10 +151,7 @@ impl Random {
 
     /// A real number between −¼ and ¼.
     pub fn nearly_whole(&mut self) -> Exact {
-        Exact {
-            re: self.ratio() / Rational::from_integer(4.into()),
-            im: Rational::zero(),
-        }
+        Exact::real(self.ratio() / Rational::from_integer(4.into()))
     }
 
     /// A complex number like [`Random::complex`] with an imaginary part between −½ and ½: squares of such numbers are seldom near zero.

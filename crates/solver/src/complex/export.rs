@@ -225,10 +225,7 @@ mod tests {
                     else {
                         continue;
                     };
-                    let scale = Exact {
-                        re: ratio.clone(),
-                        im: Rational::zero(),
-                    };
+                    let scale = Exact::real(ratio.clone());
                     let value = monomial
                         .iter()
                         .fold(scale, |p, &u| p.times(&figure.values[u]));

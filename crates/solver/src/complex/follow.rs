@@ -220,6 +220,11 @@ impl Follower {
     }
 }
 
+/// How many paths one follower takes, of all: setting it up costs as much as a few tubes.
+fn piece(count: usize) -> usize {
+    count.div_ceil(4 * rayon::current_num_threads()).max(1)
+}
+
 /// Follows the paths of many solutions on all threads of the pool, as `ways` says. Results come in the solutions' order.
 pub fn follow_all(
     system: &System,
@@ -229,11 +234,7 @@ pub fn follow_all(
 ) -> (Vec<PathEnd>, Effort) {
     let homotopy = system.homotopy();
     let (done, all) = (AtomicUsize::new(0), starts.len());
-    // One follower for each piece of work: setting it up costs as much as a few tubes.
-    let piece = starts
-        .len()
-        .div_ceil(4 * rayon::current_num_threads())
-        .max(1);
+    let piece = piece(starts.len());
     let results: Vec<(Vec<PathEnd>, Effort)> = starts
         .par_chunks(piece)
         .map(|starts| {
@@ -273,12 +274,8 @@ pub fn prove_all(
     points: &[Vec<DoubleDouble>],
 ) -> Vec<Result<SolutionBox, String>> {
     let homotopy = system.homotopy();
-    let piece = points
-        .len()
-        .div_ceil(4 * rayon::current_num_threads())
-        .max(1);
     points
-        .par_chunks(piece)
+        .par_chunks(piece(points.len()))
         .flat_map_iter(|points| {
             let mut follower = Follower::new(system, homotopy.clone(), rights, &Ways::default());
             let proved: Vec<_> = points.iter().map(|point| follower.prove(point)).collect();

@@ -281,6 +281,20 @@ fn nonzero(homotopy: &Homotopy) -> Vec<(String, Vec<[usize; 2]>)> {
     names.zip(homotopy.nonzero_vectors()).collect()
 }
 
+/// The distance between two points, by index.
+fn edge(problem: &Problem, a: usize, b: usize) -> Option<usize> {
+    let mut distances = problem.distances.iter();
+    distances.position(|d| d.points == [a, b] || d.points == [b, a])
+}
+
+/// Of a triangle with these squares of its sides: twice the product of the first two sides as vectors from their common corner, and sixteen
+/// times the squared area.
+fn area(u: &Rational, v: &Rational, w: &Rational) -> (Rational, Rational) {
+    let twice = u + v - w;
+    let area = Rational::from_integer(4.into()) * u * v - &twice * &twice;
+    (twice, area)
+}
+
 /// Makes the distances in the reference equations that say where it stands, instead of equations for squares: lengths
 /// may then go anywhere and the figure never comes to a place where the gauge is singular. Returns the unknowns that
 /// are the reference's coordinates.
@@ -292,10 +306,7 @@ fn place(
     fixed: &[usize],
     equations: &mut [Equation],
 ) -> Option<[usize; 3]> {
-    let edge = |a: usize, b: usize| {
-        let joins = |d: &crate::problem::Distance| d.points == [a, b] || d.points == [b, a];
-        problem.distances.iter().position(joins)
-    };
+    let edge = |a: usize, b: usize| edge(problem, a, b);
     let squared = |e: usize| problem.distances[e].target.squared();
     let mut put = |e: usize, unknown: usize, value: Real| {
         let per_unit = Rational::from_float(1.0 / homotopy.unit).expect("a power of two");
@@ -319,9 +330,7 @@ fn place(
         [a, b, c] => {
             let (ab, ac, bc) = (edge(a, b)?, edge(a, c)?, edge(b, c)?);
             let (u, v, w) = (squared(ab), squared(ac), squared(bc));
-            let twice = &u + &v - &w;
-            // Sixteen times the squared area.
-            let area = Rational::from_integer(4.into()) * &u * &v - &twice * &twice;
+            let (twice, area) = area(&u, &v, &w);
             if !area.is_positive() || !u.is_positive() {
                 return None;
             }
@@ -355,21 +364,16 @@ fn constrained_sign(homotopy: &Homotopy) -> Option<String> {
 /// Whether a triangle with these sides is no degenerate one: no complex figure of it is isotropic.
 fn is_proper(problem: &Problem, fixed: &[usize]) -> bool {
     let squared = |a: usize, b: usize| -> Option<Rational> {
-        let joins = |d: &&crate::problem::Distance| d.points == [a, b] || d.points == [b, a];
-        let distance = problem.distances.iter().find(joins)?;
-        Some(distance.target.squared())
+        Some(problem.distances[edge(problem, a, b)?].target.squared())
     };
-    let zero = Rational::from_integer(0.into());
+    let zero = Rational::zero();
     match *fixed {
         [a, b] => squared(a, b).is_some_and(|s| s != zero),
         [a, b, c] => {
             let (Some(u), Some(v), Some(w)) = (squared(a, b), squared(a, c), squared(b, c)) else {
                 return false;
             };
-            // Sixteen times the squared area.
-            let twice = &u + &v - &w;
-            let four = Rational::from_integer(4.into());
-            u != zero && four * &u * &v != &twice * &twice
+            u != zero && area(&u, &v, &w).1 != zero
         }
         _ => false,
     }

@@ -1,9 +1,9 @@
 //! From a sketch to a figure that meets its dimensions.
 
 use super::ending::Ending;
-use crate::interval::point;
+use crate::interval::{Interval, point};
 use crate::problem::Problem;
-use crate::system::{GaugeError, Homotopy, is_met};
+use crate::system::{GaugeError, is_met};
 use crate::track::arc::{ArcEnd, Figure};
 use crate::track::certified::FollowArcs;
 use crate::track::{Control, StartError, Stop, StopKind};
@@ -26,6 +26,16 @@ pub enum OpenError {
         /// How the path that was to lead the sketch to its dimensions ended, as a value to be matched on.
         ending: Box<Ending>,
     },
+}
+
+impl OpenError {
+    /// Of a sketch on whose way to its dimensions the proof ended.
+    pub(super) fn stopped(stop: Stop) -> Self {
+        OpenError::Correction {
+            what: stop.text.clone(),
+            ending: Box::new(Ending::Stopped(stop)),
+        }
+    }
 }
 
 impl From<GaugeError> for OpenError {
@@ -72,36 +82,12 @@ pub(super) fn correct(
     if let Some(witness) = &mut control.witness {
         witness.end_arc(&run);
     }
-    let refuse = |ending: Ending, what: String| {
-        Err(OpenError::Correction {
-            what,
-            ending: Box::new(ending),
-        })
-    };
-    let figure = match run.end {
-        ArcEnd::Reached(figure) => figure,
-        ArcEnd::Limit(_) => {
-            let what = format!(
-                "on the way there, at t = {:.6}, the figure comes to a limit and turns back",
-                run.t.0
-            );
-            let stop = Stop::new(StopKind::TurnsBack, &*what);
-            return refuse(Ending::Stopped(stop), what);
-        }
-        ArcEnd::Passes(reason) => {
-            let what = format!("on the way there branches seem to meet ({reason})");
-            return refuse(Ending::Passes(reason), what);
-        }
-        ArcEnd::Stopped(reason) => {
-            let what = reason.text.clone();
-            return refuse(Ending::Stopped(reason), what);
-        }
-    };
+    let figure = reached(run.end, run.t)?;
     let homotopy = arcs.homotopy_mut();
     for (index, distance) in problem.distances.iter().enumerate() {
         homotopy.hold(index, &distance.target);
     }
-    let distance = distance(homotopy, &start, &figure) * unit;
+    let distance = furthest(&start.points(homotopy), &figure.points(homotopy)) * unit;
     Ok((
         figure,
         Moved {
@@ -111,12 +97,30 @@ pub(super) fn correct(
     ))
 }
 
+/// The figure that meets the dimensions of a sketch, or why the way there ends before, at `t`.
+pub(super) fn reached(end: ArcEnd, t: (f64, f64)) -> Result<Figure, OpenError> {
+    match end {
+        ArcEnd::Reached(figure) => Ok(figure),
+        ArcEnd::Limit(_) => {
+            let what = format!(
+                "on the way there, at t = {:.6}, the figure comes to a limit and turns back",
+                t.0
+            );
+            Err(OpenError::stopped(Stop::new(StopKind::TurnsBack, what)))
+        }
+        ArcEnd::Passes(reason) => Err(OpenError::Correction {
+            what: format!("on the way there branches seem to meet ({reason})"),
+            ending: Box::new(Ending::Passes(reason)),
+        }),
+        ArcEnd::Stopped(reason) => Err(OpenError::stopped(reason)),
+    }
+}
+
 /// A bound on the distance of any point in one figure from the same in the other.
-fn distance(homotopy: &Homotopy, one: &Figure, other: &Figure) -> f64 {
-    let (a, b) = (one.points(homotopy), other.points(homotopy));
-    let squared = a.iter().zip(&b).map(|(a, b)| {
+pub(super) fn furthest(a: &[[Interval; 3]], b: &[[Interval; 3]]) -> f64 {
+    let distances = a.iter().zip(b).map(|(a, b)| {
         let sum = (0..3).fold(point(0.0), |sum, k| sum + (a[k] - b[k]).sqr());
         sum.sqrt().sup()
     });
-    squared.fold(0.0, f64::max)
+    distances.fold(0.0, f64::max)
 }

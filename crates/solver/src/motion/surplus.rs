@@ -1,11 +1,11 @@
 //! Which distances a motion is followed by, where there are more than say something new, and how it stands to the others.
 
 use super::bounds::{Bounds, measure};
-use crate::blocks::{Account, Floats, Ruler, System, Verdict, straight};
+use crate::blocks::{Account, Floats, Ruler, System, Verdict, enclosed, straight};
 use crate::edit::Round;
 use crate::interval::{Interval, hull};
 use crate::linalg::Span;
-use crate::problem::{Problem, Target, free_coordinates, rigidity_row};
+use crate::problem::{Problem, free_coordinates, rigidity_row};
 use crate::system::{Quantity, typical_length};
 use crate::track::Control;
 
@@ -96,10 +96,7 @@ pub(super) fn account(
     let unit = typical_length(problem);
     for &index in left_out {
         let distance = &problem.distances[index];
-        let target = match &distance.target {
-            Target::Length(length) => crate::interval::enclose(length),
-            Target::SquaredLength(square) => crate::interval::enclose(square).sqrt(),
-        };
+        let [target, _] = enclosed(&distance.target);
         let owner = problem.objects.len() + problem.constraints.len() + 1 + index;
         let epsilon = Ruler::new(problem, owner, (unit, 2), None).epsilon;
         let quantity = Quantity::length(problem, distance.points);

@@ -1,7 +1,8 @@
 //! Targets that no figure meets, or only a singular one.
 
 use super::{Remark, tetrahedra, triangles};
-use crate::interval::{Interval, enclose, enclose_rational, point};
+use crate::blocks::enclosed;
+use crate::interval::{Interval, enclose_rational, point};
 use crate::problem::{Problem, Target};
 use crate::rational::Rational;
 
@@ -12,10 +13,7 @@ fn squared(problem: &Problem, distance: usize) -> Rational {
 
 /// An enclosure of a target length.
 fn length(problem: &Problem, distance: usize) -> Interval {
-    match &problem.distances[distance].target {
-        Target::Length(length) => enclose(length),
-        Target::SquaredLength(squared) => enclose(squared).sqrt(),
-    }
+    enclosed(&problem.distances[distance].target)[0]
 }
 
 /// The shortest way from one end of a distance to the other along the others, and a bound on its length, not

@@ -150,7 +150,7 @@ impl Figures {
                 continue;
             }
             let found = search.solve(b, Vec::new(), &fixed);
-            if let [only] = found.solutions.as_slice() {
+            if let [only] = found.as_slice() {
                 let unknowns = &cut.blocks.blocks[b].unknowns;
                 for (&u, number) in unknowns.iter().zip(only) {
                     fixed[u] = Some(number.clone());
@@ -223,7 +223,7 @@ impl Figures {
         let refused = refused.map(|(n, &row)| (cut.name(cut.system.rows[row].index), n));
         Ok(Figures {
             refused: refused.collect(),
-            account: cut.account(|k| verdicts[k]),
+            account: cut.account(|u| cut.system.values[u].enclose(), |k| verdicts[k]),
             fixed,
             parts,
             accounts,

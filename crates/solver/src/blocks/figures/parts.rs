@@ -106,7 +106,7 @@ pub(super) fn verdict(
     values: &[Option<Number>],
     tolerance: Option<f64>,
 ) -> Verdict {
-    let row = &cut.system.rows[cut.redundant[k]];
+    let row = cut.left_out(k);
     let right = Number::of(&cut.at_target(row.index));
     let off = row
         .products

@@ -18,11 +18,9 @@ use std::sync::atomic::Ordering;
 const MOST_TUBES: usize = 15_000;
 /// Figures of a part that are looked at, at most.
 const MOST_OF_PART: usize = 2000;
+
 /// The solutions of a block for some figure of those before.
-#[derive(Debug)]
-pub(super) struct Found {
-    pub solutions: Vec<Vec<Number>>,
-}
+type Solutions = Rc<Vec<Vec<Number>>>;
 
 /// What goes on while figures are looked for.
 pub(super) struct Search<'a, 'c> {
@@ -33,7 +31,7 @@ pub(super) struct Search<'a, 'c> {
     pub ancestors: Vec<BTreeSet<usize>>,
     /// The blocks whose numbers are not the same in all figures.
     pub moving: Vec<usize>,
-    pub known: HashMap<(usize, Vec<Chosen>), Rc<Found>>,
+    pub known: HashMap<(usize, Vec<Chosen>), Solutions>,
     pub accounts: HashMap<usize, BlockAccount>,
     pub tubes: usize,
     pub truncated: bool,
@@ -79,7 +77,7 @@ impl<'a, 'c> Search<'a, 'c> {
         let before = chosen.iter().copied();
         let before = before.filter(|(c, _)| self.ancestors[b].contains(c));
         let found = self.solve(b, before.collect(), values);
-        for (k, solution) in found.solutions.iter().enumerate() {
+        for (k, solution) in found.iter().enumerate() {
             if out.len() >= MOST_OF_PART {
                 self.truncated = true;
                 return;
@@ -94,7 +92,7 @@ impl<'a, 'c> Search<'a, 'c> {
     }
 
     /// The solutions of a block where those before it are chosen.
-    pub fn solve(&mut self, b: usize, before: Vec<Chosen>, values: &[Option<Number>]) -> Rc<Found> {
+    pub fn solve(&mut self, b: usize, before: Vec<Chosen>, values: &[Option<Number>]) -> Solutions {
         let key = (b, before);
         if let Some(found) = self.known.get(&key) {
             return Rc::clone(found);
@@ -131,7 +129,7 @@ impl<'a, 'c> Search<'a, 'c> {
         if account.doubt.is_none() {
             account.doubt = doubt;
         }
-        let found = Rc::new(Found { solutions });
+        let found = Rc::new(solutions);
         self.known.insert(key, Rc::clone(&found));
         found
     }

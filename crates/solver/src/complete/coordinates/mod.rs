@@ -92,13 +92,7 @@ pub fn all(problem: &Problem, options: &Options) -> Result<Complete, Unserved> {
     })?;
     let stop = AtomicBool::new(false);
     let run = Watched::new(&stop, options, false);
-    let store = match &options.store {
-        Some(keep) => {
-            let opened = Store::open(keep, problem, false);
-            Some((keep, opened.map_err(Unserved::Store)?))
-        }
-        None => None,
-    };
+    let store = options.opened(problem, false)?;
     let result = options.watched(&run, begin, || {
         searched(
             problem,
@@ -230,11 +224,7 @@ fn searched(
         result.cover = figures.cover(problem, halves);
     }
     let undecided = figures.undecided;
-    result.status = match undecided.is_empty() {
-        true => Status::Complete,
-        false if undecided.iter().any(|part| part.why == Why::Flexible) => Status::Flexible,
-        false => Status::Partial,
-    };
+    result.status = Status::of(&undecided);
     result.undecided = undecided;
     for part in &mut result.undecided {
         // But for roundings.

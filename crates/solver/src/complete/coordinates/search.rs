@@ -213,14 +213,7 @@ impl<'a> Block<'a> {
             }),
             ..Found::default()
         };
-        for one in found {
-            for part in one.undecided {
-                leave(&mut whole.undecided, part.why, part.count, part.share);
-            }
-            whole.boxes += one.boxes;
-            whole.cut += one.cut;
-            whole.is_broken_off |= one.is_broken_off;
-        }
+        found.into_iter().for_each(|one| whole.append(one));
         (whole.zeros, whole.pieces) = all.in_order();
         whole
     }
@@ -388,6 +381,16 @@ impl<'a> Block<'a> {
 }
 
 impl Found {
+    /// Adds what was looked at elsewhere, but no zeros.
+    pub fn append(&mut self, other: Found) {
+        for part in other.undecided {
+            leave(&mut self.undecided, part.why, part.count, part.share);
+        }
+        self.boxes += other.boxes;
+        self.cut += other.cut;
+        self.is_broken_off |= other.is_broken_off;
+    }
+
     /// Nothing was looked at.
     pub fn missing(share: f64) -> Found {
         let mut found = Found {

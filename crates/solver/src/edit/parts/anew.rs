@@ -9,15 +9,14 @@
 //! misses it by to its number.
 
 use super::left_out::at_rest_all;
-use super::{End, Followers, MOST_TUBES, Parts};
-use crate::blocks::{Blocks, Choice, FINE, LAST, Used, is_exact, keep, rounded_up};
+use super::{Followers, MOST_TUBES, Parts};
+use crate::blocks::{Blocks, Choice, FINE, LAST, is_exact, keep, rounded_up, square};
 use crate::constraint::try_lower_all;
 use crate::edit::ending::{Edited, Ending, Keep};
 use crate::edit::setting::Setting;
 use crate::interval::{Real, point};
+use crate::track::arc::ArcEnd;
 use crate::track::{Control, StopKind};
-use std::collections::BTreeSet;
-use std::sync::atomic::Ordering;
 
 /// So often equations are chosen anew on one way.
 const MOST_LEGS: usize = 12;
@@ -37,7 +36,7 @@ impl Parts {
         first: Edited,
         control: &mut Control,
     ) -> Edited {
-        if self.free.is_empty() && self.redundant.is_empty()
+        if self.cut.free.is_empty() && self.cut.redundant.is_empty()
             || !can_go_on(&first.ending)
             || first.astray.is_some()
         {
@@ -49,17 +48,14 @@ impl Parts {
         let mut last = first.clone();
         let mut best: Option<Edited> = None;
         for _ in 0..MOST_LEGS {
-            let is_cancelled = control
-                .cancel
-                .is_some_and(|flag| flag.load(Ordering::Relaxed));
             let spent: usize = legs.iter().map(|leg| leg.tubes).sum();
-            if is_cancelled || spent > MOST_TUBES {
+            if control.is_interrupted() || spent > MOST_TUBES {
                 break;
             }
             let next = match last.t.0 > 0.0 {
                 true => BEFORE.iter().find_map(|part| {
                     let t = part * last.t.0;
-                    let between = settings.iter().map(|s| s.before(&ahead.problem, t));
+                    let between = settings.iter().map(|s| s.before(&ahead.cut.problem, t));
                     let between: Vec<Setting> = between.collect::<Option<_>>()?;
                     let mut there = ahead.clone();
                     let leg = there.continued(&between, Keep::Always, control);
@@ -115,42 +111,41 @@ impl Parts {
     /// Chooses equations and what is held anew where the figure is now. How far the figure moved to meet constraints that were left out
     /// and are used now; `None`: nothing else can be chosen, or the figure could not be led to it.
     fn choose_anew(&mut self, settings: &[Setting], control: &mut Control) -> Option<f64> {
-        let lowered = try_lower_all(&self.problem, Some(&self.record)).ok()?;
+        let lowered = try_lower_all(&self.cut.problem, Some(&self.cut.record)).ok()?;
         let rights = lowered.tail.equations.into_iter().map(|e| e.right);
         let rights = at_rest_all(&rights.collect::<Vec<_>>());
-        let head = self.problem.objects.len() + self.problem.constraints.len() + 1;
+        let head = self.cut.problem.objects.len() + self.cut.problem.constraints.len() + 1;
         let is_driven = |owner: usize| {
             settings.iter().any(|setting| {
                 owner
-                    == match setting.index.checked_sub(self.problem.distances.len()) {
+                    == match setting.index.checked_sub(self.cut.problem.distances.len()) {
                         None => head + setting.index,
-                        Some(c) => self.problem.objects.len() + c,
+                        Some(c) => self.cut.problem.objects.len() + c,
                     }
             })
         };
-        let first = |row: usize| match self.owners[self.system.rows[row].index] {
+        let first = |row: usize| match self.cut.owner(row) {
             // Where a path turns back the others are independent by themselves.
             owner if is_driven(owner) => LAST,
-            owner => keep(&self.problem, owner),
+            owner => keep(&self.cut.problem, owner),
         };
-        let coordinates: BTreeSet<usize> = self.system.coordinates.iter().copied().collect();
-        let at = self.centres();
-        let later = |u: usize| coordinates.contains(&u).into();
-        let choice = Choice::new(&self.system, &at, later, first, FINE);
+        let later = self.cut.system.later();
+        let at = &self.figure.centre;
+        let choice = Choice::new(&self.cut.system, at, later, first, FINE);
         let new: Vec<usize> = {
-            let is_new = |row: &&usize| self.redundant.contains(row);
+            let is_new = |row: &&usize| self.cut.redundant.contains(row);
             choice.used.iter().filter(is_new).copied().collect()
         };
-        let is_other = !new.is_empty() || choice.free != self.free;
-        if !is_other || choice.free.len() > self.free.len() {
+        let is_other = !new.is_empty() || choice.free != self.cut.free;
+        if !is_other || choice.free.len() > self.cut.free.len() {
             return None;
         }
         // From what the figure misses of constraints that are used now to none of it.
         let mut led = rights.clone();
         for &row in &new {
-            let place = self.redundant.iter().position(|&other| other == row)?;
+            let place = self.cut.redundant.iter().position(|&other| other == row)?;
             if !self.is_proved(place, &rights) {
-                let index = self.system.rows[row].index;
+                let index = self.cut.system.rows[row].index;
                 let miss = Real::within(
                     self.sides(row, &self.figure, &rights, None).0 * point(self.scale(index)),
                 );
@@ -160,7 +155,7 @@ impl Parts {
         self.take(choice, &rights)?;
         let mut moved = 0.0;
         if led.iter().any(|right| right.len() > 1) {
-            let End::Reached(figure) = self.follow(&led, control).end else {
+            let ArcEnd::Reached(figure) = self.follow(&led, control).end else {
                 return None;
             };
             moved = self.distance(&figure);
@@ -173,21 +168,15 @@ impl Parts {
     /// Goes on in other equations, or with other coordinates held, where the figure is now. `None`: they are no square system.
     pub(super) fn take(&mut self, choice: Choice, rights: &[Vec<Real>]) -> Option<()> {
         for &u in &choice.free {
-            if !self.free.contains(&u) {
-                let unit = point(self.unit.powi(self.system.unknowns[u].power));
-                self.system.values[u] = Real::within(self.figure[u].enclosure() * unit);
+            if !self.cut.free.contains(&u) {
+                let unit = point(self.cut.unit_of(u));
+                self.cut.system.values[u] = Real::within(self.figure.enclosure(u) * unit);
             }
         }
-        let held = choice.free.iter().map(|&u| Used::Held(u));
-        self.used = choice
-            .used
-            .iter()
-            .map(|&row| Used::Row(row))
-            .chain(held)
-            .collect();
-        self.blocks = Blocks::of(&self.used, &self.system)?;
-        self.is_exact = is_exact(&self.blocks, &self.used, &self.system);
-        (self.redundant, self.free) = (choice.redundant, choice.free);
+        self.cut.used = square(&choice);
+        self.cut.blocks = Blocks::of(&self.cut.used, &self.cut.system)?;
+        self.cut.is_exact = is_exact(&self.cut.blocks, &self.cut.used, &self.cut.system);
+        (self.cut.redundant, self.cut.free) = (choice.redundant, choice.free);
         self.together = self.bound_together();
         self.ready = Followers::default();
         self.find_what_follows(rights);

@@ -5,7 +5,7 @@
 //! That figure is found in floats; what is proved is the way to it.
 
 use super::left_out::at_rest_all;
-use super::{End, Known, Parts, Run};
+use super::{Parts, put};
 use crate::blocks::{Choice, FINE, FREE_FIRST, Floats, keep};
 use crate::constraint::{Equation, try_lower_all};
 use crate::edit::drag::{Drag, Dragged};
@@ -13,6 +13,7 @@ use crate::edit::ending::Edited;
 use crate::interval::{Real, enclose, point};
 use crate::places::{Each as _, array};
 use crate::problem::Decimal;
+use crate::track::arc::{ArcEnd, ArcRun};
 use crate::track::{Control, Stop, StopKind};
 use std::collections::BTreeSet;
 use std::mem;
@@ -53,18 +54,11 @@ impl Parts {
         let clock = Instant::now();
         let size = self.size(drags);
         let (mut legs, mut led): (Vec<Edited>, BTreeSet<String>) = Default::default();
-        let stop = self.drag_on(drags, size / self.unit, (&mut legs, &mut led), control);
+        let stop = self.drag_on(drags, size / self.cut.unit, (&mut legs, &mut led), control);
         let stop = stop.err();
         let mut edited = match legs.split_last() {
             Some((last, before)) => self.joined(last, before, (last, 0.0)),
-            None => {
-                let run = Run {
-                    end: End::Reached(self.figure.clone()),
-                    t: (1.0, 1.0),
-                    ..super::stopped(Stop::new(StopKind::Enough, ""))
-                };
-                self.edited(&[], run, self.scope())
-            }
+            None => self.standing_still(),
         };
         edited.account.held.retain(|held| !led.contains(&held.what));
         let off = |drag: &Drag| {
@@ -93,7 +87,7 @@ impl Parts {
         control: &mut Control,
     ) -> Result<(), Stop> {
         let undecided = |why: &str| Stop::new(StopKind::Undecided, why);
-        let lowered = try_lower_all(&self.problem, Some(&self.record));
+        let lowered = try_lower_all(&self.cut.problem, Some(&self.cut.record));
         let equations = lowered.map_err(|_| undecided("its equations cannot be made"))?;
         let equations = equations.tail.equations;
         let wanted = self.wanted(drags);
@@ -178,7 +172,7 @@ impl Parts {
             off.fold(0.0, f64::max)
         };
         match far(all[0]) {
-            0.0 => far([0.0; 3]).max(self.unit),
+            0.0 => far([0.0; 3]).max(self.cut.unit),
             size => size,
         }
     }
@@ -187,25 +181,25 @@ impl Parts {
     fn away(&self, wanted: &[Wanted]) -> f64 {
         let off = wanted
             .iter()
-            .map(|w| self.figure[w.unknown].centre - w.near);
+            .map(|w| self.figure.centre[w.unknown] - w.near);
         off.map(|x| x * x).sum::<f64>().sqrt()
     }
 
     /// How far an unknown is at most from where it is in another figure, in the unit of length.
     fn far_from(&self, near: &[f64]) -> f64 {
-        let both = self.figure.iter().zip(near);
-        both.fold(0.0, |far: f64, (a, b)| far.max((a.centre - b).abs()))
+        let both = self.figure.centre.iter().zip(near);
+        both.fold(0.0, |far: f64, (a, b)| far.max((a - b).abs()))
     }
 
     /// Coordinates of points that are dragged.
     fn wanted(&self, drags: &[Drag]) -> Vec<Wanted> {
-        let d = self.problem.dimension;
+        let d = self.cut.problem.dimension;
         let all = drags.iter().flat_map(|drag| {
             let places = drag.to.iter().take(d).enumerate();
             places.map(|(axis, to)| Wanted {
-                unknown: self.system.coordinates[drag.point * d + axis],
+                unknown: self.cut.coordinate(drag.point, axis),
                 value: Real::from(to.value().clone()),
-                near: to.to_f64() / self.unit,
+                near: to.to_f64() / self.cut.unit,
             })
         });
         all.collect()
@@ -219,9 +213,9 @@ impl Parts {
         wanted: &[Wanted],
         part: f64,
     ) -> Option<(Vec<f64>, bool)> {
-        let floats = Floats::new(&self.system, equations, self.unit);
-        let rows: Vec<usize> = (0..self.system.rows.len()).collect();
-        let at = self.centres();
+        let floats = Floats::new(&self.cut.system, equations, self.cut.unit);
+        let rows: Vec<usize> = (0..self.cut.system.rows.len()).collect();
+        let at = self.figure.centre.clone();
         let goal = |w: &Wanted| at[w.unknown] + part * (w.near - at[w.unknown]);
         let put = |from: &[f64], part: f64| {
             let mut there = from.to_vec();
@@ -277,26 +271,26 @@ impl Parts {
         let undecided = |why: &str| Stop::new(StopKind::Undecided, why);
         let rights: Vec<Vec<Real>> = equations.iter().map(|e| e.right.clone()).collect();
         let rights = at_rest_all(&rights);
-        let at = self.centres();
-        let coordinates: BTreeSet<usize> = self.system.coordinates.iter().copied().collect();
+        let at = self.figure.centre.clone();
+        let later = self.cut.system.later();
         let rank = |u: usize| match wanted.iter().any(|w| w.unknown == u) {
             true => FREE_FIRST,
-            false => coordinates.contains(&u).into(),
+            false => later(u),
         };
-        let first = |row: usize| keep(&self.problem, self.owners[self.system.rows[row].index]);
-        let choice = Choice::new(&self.system, &at, rank, first, FINE);
+        let first = |row: usize| keep(&self.cut.problem, self.cut.owner(row));
+        let choice = Choice::new(&self.cut.system, &at, rank, first, FINE);
         self.take(choice, &rights)
             .ok_or_else(|| undecided("its equations do not match its unknowns"))?;
         let (mut names, mut reached) = (Vec::new(), Vec::new());
-        for u in self.free.clone() {
-            let unit = self.unit.powi(self.system.unknowns[u].power);
+        for u in self.cut.free.clone() {
+            let unit = self.cut.unit_of(u);
             let to = match exact.iter().find(|w| w.unknown == u && step == 1.0) {
                 Some(w) => w.value.clone(),
                 None => Real::within(point(at[u] + step * (near[u] - at[u])) * point(unit)),
             };
-            let change = &to - &self.system.values[u];
+            let change = &to - &self.cut.system.values[u];
             if !change.is_zero() {
-                names.push(self.system.unknowns[u].name.clone());
+                names.push(self.cut.system.unknowns[u].name.clone());
                 self.led.insert(u, change);
                 reached.push((u, to, unit));
             }
@@ -310,24 +304,25 @@ impl Parts {
             return Err(astray.stop);
         }
         let figure = match &run.end {
-            End::Reached(figure) => figure.clone(),
-            End::Limit(..) => {
+            ArcEnd::Reached(figure) => figure.clone(),
+            ArcEnd::Limit(_) => {
                 return Err(Stop::new(
                     StopKind::TurnsBack,
                     "the figure comes to a limit there",
                 ));
             }
-            End::Passes(stop) | End::Stopped(stop) => return Err(stop.clone()),
+            ArcEnd::Passes(stop) | ArcEnd::Stopped(stop) => return Err(stop.clone()),
         };
         self.figure = figure;
         for (u, to, unit) in reached {
             // The number that was led there is off `to` by no more than twice what was not known of it before; the box that was reached holds
             // one figure for each such number, and these are one family, so that for `to` continues the old one as well.
-            self.figure[u] = Known::new(to.enclose() * point(1.0 / unit));
-            self.system.values[u] = to;
+            put(&mut self.figure, u, to.enclose() * point(1.0 / unit));
+            self.cut.system.values[u] = to;
         }
         self.verdicts = judged.verdicts;
-        let end = End::Reached(self.figure.clone());
-        Ok((self.edited(&[], Run { end, ..run }, judged.account), names))
+        let end = ArcEnd::Reached(self.figure.clone());
+        let run = ArcRun { end, ..run };
+        Ok((self.edited(&[], run, judged.account), names))
     }
 }

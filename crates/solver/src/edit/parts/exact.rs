@@ -1,13 +1,13 @@
 //! Numbers that are known exactly all the way, as polynomials in t, and what can be said of them without any tube.
 
-use super::{Known, Parts, Used};
+use super::{Parts, Used};
 use crate::constraint::{Entry, Nonzero};
 use crate::equations::{Form, Ring as _};
 use crate::interval::along::{Along, Quantifiable as _};
 use crate::interval::{Interval, Real, hull, point};
 use crate::places::array;
 use crate::system::{Extent, Segment, orientation};
-use crate::track::arc::{Kept, Off, Orientation};
+use crate::track::arc::{Figure, Kept, Off, Orientation};
 use crate::track::{Stop, StopKind};
 use std::collections::HashMap;
 
@@ -20,10 +20,10 @@ impl Parts {
     ) -> HashMap<usize, Vec<Real>> {
         let mut all: HashMap<usize, Vec<Real>> = HashMap::new();
         // What they need that stands still is needed too.
-        let wanted = (0..moving.len()).filter(|&b| moving[b] && self.is_exact[b]);
-        for b in self.blocks.with_needs(wanted) {
-            let block = &self.blocks.blocks[b];
-            let (u, used) = (block.unknowns[0], self.used[block.equations[0]]);
+        let wanted = (0..moving.len()).filter(|&b| moving[b] && self.cut.is_exact[b]);
+        for b in self.cut.blocks.with_needs(wanted) {
+            let block = &self.cut.blocks.blocks[b];
+            let (u, used) = (block.unknowns[0], self.cut.used[block.equations[0]]);
             let mut right = self.rights_of(used, rights);
             let mut factor = 0;
             if let Used::Row(row) = used {
@@ -41,7 +41,7 @@ impl Parts {
                         right[k] = &right[k] + &(&by * c);
                     }
                 };
-                for p in &self.system.rows[row].products {
+                for p in &self.cut.system.rows[row].products {
                     assert!(p.forms().contains(&Form::One), "an exact block is linear");
                     for (entry, sign) in p.forms().into_iter().flat_map(Form::entries) {
                         if let Some(v) = entry {
@@ -54,17 +54,23 @@ impl Parts {
             }
             all.insert(u, right);
         }
-        all.retain(|&u, _| moving[self.blocks.of_unknown[u]]);
+        all.retain(|&u, _| moving[self.cut.blocks.of_unknown[u]]);
         all
     }
 
     /// Enclosures of the polynomials' coefficients, in the homotopy's unit.
     pub(super) fn paths(&self, exact: &HashMap<usize, Vec<Real>>) -> HashMap<usize, Vec<Interval>> {
         let path = |(&u, polynomial): (&usize, &Vec<Real>)| {
-            let scale = self.unit.powi(self.system.unknowns[u].power);
+            let scale = self.cut.unit_of(u);
             (u, enclosed(polynomial, scale))
         };
         exact.iter().map(path).collect()
+    }
+
+    /// Whether unknowns are all known exactly, and some of them move.
+    fn move_exactly(&self, of: &[usize], exact: &HashMap<usize, Vec<Real>>) -> bool {
+        let is_exact = |u: &usize| self.cut.is_exact[self.cut.blocks.of_unknown[*u]];
+        of.iter().all(is_exact) && of.iter().any(|u| exact.contains_key(u))
     }
 
     /// An unknown at a time: where its path is, or where it stands.
@@ -76,22 +82,22 @@ impl Parts {
     ) -> Interval {
         match paths.get(&u) {
             Some(path) => value_at(path, time),
-            None => self.figure[u].enclosure(),
+            None => self.figure.enclosure(u),
         }
     }
 
     /// The coordinates of a vector, from enclosures of unknowns.
     fn coordinates_of(&self, vector: &Nonzero, at: impl Fn(usize) -> Interval) -> Vec<Interval> {
         let value = |entry: Entry| entry.unknown().map_or(point(0.0), &at);
-        let forms = vector.forms[..self.problem.dimension].iter();
+        let forms = vector.forms[..self.cut.problem.dimension].iter();
         forms.map(|form| form.value(value)).collect()
     }
 
     /// A vector that must not vanish and may do so in the figure.
-    pub(super) fn vanished(&self, figure: &[Known]) -> Option<Stop> {
-        let mut vectors = self.system.nonzero.iter();
+    pub(super) fn vanished(&self, figure: &Figure) -> Option<Stop> {
+        let mut vectors = self.cut.system.nonzero.iter();
         let vector = vectors.find(|vector| {
-            let place = self.coordinates_of(vector, |u| figure[u].enclosure());
+            let place = self.coordinates_of(vector, |u| figure.enclosure(u));
             place.iter().all(|x| x.contains(0.0))
         })?;
         let words = format!(
@@ -105,11 +111,10 @@ impl Parts {
     /// (Others are in a part that is followed.)
     pub(super) fn vanishes_exactly(&self, exact: &HashMap<usize, Vec<Real>>) -> Option<String> {
         let paths = self.paths(exact);
-        let mut vectors = self.system.nonzero.iter();
+        let mut vectors = self.cut.system.nonzero.iter();
         let vector = vectors.find(|vector| {
-            let of: Vec<usize> = vector.unknowns(self.problem.dimension).collect();
-            let is_exact = |u: &usize| self.is_exact[self.blocks.of_unknown[*u]];
-            if !of.iter().all(is_exact) || !of.iter().any(|u| exact.contains_key(u)) {
+            let of: Vec<usize> = vector.unknowns(self.cut.problem.dimension).collect();
+            if !self.move_exactly(&of, exact) {
                 return false;
             }
             !pieces(1.0).all(|time| {
@@ -126,17 +131,16 @@ impl Parts {
         exact: &HashMap<usize, Vec<Real>>,
         upto: Interval,
     ) -> Vec<Orientation> {
-        let d = self.problem.dimension;
+        let d = self.cut.problem.dimension;
         let mut out = Vec::new();
         let paths = self.paths(exact);
         for points in &self.followed {
             let of: Vec<usize> = points
                 .iter()
                 .flat_map(|p| (p * d)..(p * d + d))
-                .map(|place| self.system.coordinates[place])
+                .map(|place| self.cut.system.coordinates[place])
                 .collect();
-            let all_exact = of.iter().all(|&u| self.is_exact[self.blocks.of_unknown[u]]);
-            if !all_exact || !of.iter().any(|u| exact.contains_key(u)) {
+            if !self.move_exactly(&of, exact) {
                 continue;
             }
             // The points' places in the order of the set.
@@ -172,22 +176,21 @@ impl Parts {
         exact: &HashMap<usize, Vec<Real>>,
         upto: Interval,
     ) -> Vec<Kept> {
-        let d = self.problem.dimension;
+        let d = self.cut.problem.dimension;
         let paths = self.paths(exact);
-        let is_exact = |u: &usize| self.is_exact[self.blocks.of_unknown[*u]];
         let mut out = Vec::new();
         for Segment { object, extent } in &self.segments {
             let axes = match *extent {
                 Extent::Along { axis, .. } => axis..axis + 1,
                 Extent::Sweep { .. } => 0..d,
             };
-            let place = |p: usize, axis: usize| self.system.coordinates[p * d + axis];
+            let place = |p: usize, axis: usize| self.cut.coordinate(p, axis);
             let points = extent.points();
             let of = points
                 .iter()
                 .flat_map(|&p| axes.clone().map(move |k| (p, k)));
             let of: Vec<usize> = of.map(|(p, axis)| place(p, axis)).collect();
-            if !of.iter().all(is_exact) || !of.iter().any(|u| exact.contains_key(u)) {
+            if !self.move_exactly(&of, exact) {
                 continue;
             }
             let sign = |time: Interval| {
@@ -230,17 +233,17 @@ impl Parts {
         upto: Interval,
     ) -> Vec<(usize, Off)> {
         let paths = self.paths(exact);
-        let is_exact = |u: usize| self.is_exact[self.blocks.of_unknown[u]];
+        let is_exact = |u: usize| self.cut.is_exact[self.cut.blocks.of_unknown[u]];
         let looked_at = self.looked_at.iter().copied();
         let alone = looked_at.filter(|&k| self.unknowns_of(k).all(is_exact));
         let off = alone.map(|k| {
-            let row = &self.system.rows[self.redundant[k]];
+            let row = self.cut.left_out(k);
             let right = enclosed(&rights[row.index], self.scale(row.index));
             let off = |time: Interval| {
                 let at = |entry: Option<usize>| match entry.map(|u| (u, paths.get(&u))) {
                     None => Along::whole(0),
                     Some((_, Some(path))) => along(path, time),
-                    Some((u, None)) => along(&[self.figure[u].enclosure()], time),
+                    Some((u, None)) => along(&[self.figure.enclosure(u)], time),
                 };
                 let left = row
                     .products

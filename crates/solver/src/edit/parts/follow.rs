@@ -1,10 +1,9 @@
 //! Following what moves, part by part, and what the parts come to together.
 
 use super::exact::{is_positive, value_at};
-use super::{End, Known, Parts, Run, Used, moves};
-use crate::constraint::{Entry, Equation, Form, Nonzero, Product, Role, value};
+use super::{Parts, Used, moves, put};
+use crate::constraint::{Entry, Equation, Form, Product, Role, value};
 use crate::interval::{Interval, Real, hull, point};
-use crate::places::array;
 use crate::sets::Joined;
 use crate::system::{Extent, Homotopy, Part, Right};
 use crate::track::arc::{ArcEnd, ArcRun, Figure, Fold};
@@ -12,7 +11,6 @@ use crate::track::certified::arcs;
 use crate::track::{Control, LARGEST_SQUARE, Stop, StopKind};
 use std::collections::{BTreeSet, HashMap};
 use std::iter;
-use std::sync::atomic::Ordering;
 
 /// What became of one part.
 struct PartRun {
@@ -22,13 +20,20 @@ struct PartRun {
     run: ArcRun,
 }
 
+/// The part that was followed least far, of those that were not followed to their ends.
+fn worst(runs: &[PartRun]) -> Option<usize> {
+    let open = |&k: &usize| !matches!(runs[k].run.end, ArcEnd::Reached(_));
+    let ended = (0..runs.len()).filter(open);
+    ended.min_by(|&a, &b| runs[a].run.t.0.total_cmp(&runs[b].run.t.0))
+}
+
 impl Parts {
     pub(super) fn rights_of(&self, used: Used, rights: &[Vec<Real>]) -> Vec<Real> {
         match used {
-            Used::Row(row) => rights[self.system.rows[row].index].clone(),
+            Used::Row(row) => rights[self.cut.system.rows[row].index].clone(),
             Used::Held(u) => {
                 let change = self.led.get(&u).cloned();
-                iter::once(self.system.values[u].clone())
+                iter::once(self.cut.system.values[u].clone())
                     .chain(change)
                     .collect()
             }
@@ -37,13 +42,22 @@ impl Parts {
 
     fn power_of(&self, used: Used) -> i32 {
         match used {
-            Used::Row(row) => self.powers[self.system.rows[row].index],
-            Used::Held(u) => self.system.unknowns[u].power,
+            Used::Row(row) => self.cut.powers[self.cut.system.rows[row].index],
+            Used::Held(u) => self.cut.system.unknowns[u].power,
         }
     }
 
     /// Follows all that moves from t = 0 to t = 1.
-    pub(super) fn follow(&mut self, rights: &[Vec<Real>], control: &mut Control) -> Run {
+    pub(super) fn follow(&mut self, rights: &[Vec<Real>], control: &mut Control) -> ArcRun {
+        self.follow_with_places(rights, control).0
+    }
+
+    /// The same, with the places of what is looked at, in the order of [`ArcRun::beside`].
+    pub(super) fn follow_with_places(
+        &mut self,
+        rights: &[Vec<Real>],
+        control: &mut Control,
+    ) -> (ArcRun, Vec<usize>) {
         let moving = self.moving(rights);
         let exact = self.exact_polynomials(rights, &moving);
         let groups = self.groups(&moving);
@@ -52,17 +66,11 @@ impl Parts {
             let run = self.follow_group(group, rights, control);
             let is_reached = matches!(run.run.end, ArcEnd::Reached(_));
             runs.push(run);
-            let is_cancelled = control
-                .cancel
-                .is_some_and(|flag| flag.load(Ordering::Relaxed));
-            if !is_reached && is_cancelled {
+            if !is_reached && control.is_interrupted() {
                 break;
             }
         }
-        let worst = (0..runs.len())
-            .filter(|&k| !matches!(runs[k].run.end, ArcEnd::Reached(_)))
-            .min_by(|&a, &b| runs[a].run.t.0.total_cmp(&runs[b].run.t.0));
-        if let Some(k) = worst
+        if let Some(k) = worst(&runs)
             && runs.len() > 1
             && matches!(runs[k].run.end, ArcEnd::Limit(_))
         {
@@ -70,20 +78,25 @@ impl Parts {
             let all: Vec<usize> = groups.concat();
             runs = vec![self.follow_group(&all, rights, control)];
         }
-        let worst = (0..runs.len())
-            .filter(|&k| !matches!(runs[k].run.end, ArcEnd::Reached(_)))
-            .min_by(|&a, &b| runs[a].run.t.0.total_cmp(&runs[b].run.t.0));
+        let worst = worst(&runs);
         let t = worst.map_or((1.0, 1.0), |k| runs[k].run.t);
-        self.combine(runs, worst, (&exact, rights), t)
+        let upto = hull(t.0.min(0.0), t.1.min(1.0));
+        let mut besides = self.exact_besides((&exact, rights), upto);
+        for PartRun { beside, run, .. } in &runs {
+            besides.extend(beside.iter().copied().zip(run.beside.iter().copied()));
+        }
+        let (places, beside) = besides.into_iter().unzip();
+        let run = self.combine(runs, worst, &exact, (t, upto));
+        (ArcRun { beside, ..run }, places)
     }
 
     /// Which blocks move.
     pub(super) fn moving(&self, rights: &[Vec<Real>]) -> Vec<bool> {
-        let mut moving = vec![false; self.blocks.blocks.len()];
-        for (b, block) in self.blocks.blocks.iter().enumerate() {
+        let mut moving = vec![false; self.cut.blocks.blocks.len()];
+        for (b, block) in self.cut.blocks.blocks.iter().enumerate() {
             moving[b] = block.needs.iter().any(|&need| moving[need])
-                || block.equations.iter().any(|&e| match self.used[e] {
-                    Used::Row(row) => moves(&rights[self.system.rows[row].index]),
+                || block.equations.iter().any(|&e| match self.cut.used[e] {
+                    Used::Row(row) => moves(&rights[self.cut.system.rows[row].index]),
                     Used::Held(u) => self.led.contains_key(&u),
                 });
         }
@@ -95,13 +108,17 @@ impl Parts {
         let count = moving.len();
         let mut sets = Joined::new(count);
         let mut taken: BTreeSet<usize> = (0..count)
-            .filter(|&b| moving[b] && !self.is_exact[b])
+            .filter(|&b| moving[b] && !self.cut.is_exact[b])
             .collect();
         for of in &self.together {
             if !of.iter().any(|&b| moving[b]) {
                 continue;
             }
-            let of: Vec<usize> = of.iter().copied().filter(|&b| !self.is_exact[b]).collect();
+            let of: Vec<usize> = of
+                .iter()
+                .copied()
+                .filter(|&b| !self.cut.is_exact[b])
+                .collect();
             if let Some(&first) = of.first() {
                 for &b in &of {
                     sets.join([b, first]);
@@ -109,14 +126,14 @@ impl Parts {
                 taken.extend(of);
             }
         }
-        let with_needs = self.blocks.with_needs(taken);
+        let with_needs = self.cut.blocks.with_needs(taken);
         let not_exact: Vec<usize> = with_needs
             .into_iter()
-            .filter(|&b| !self.is_exact[b])
+            .filter(|&b| !self.cut.is_exact[b])
             .collect();
         for &b in &not_exact {
-            for &need in &self.blocks.blocks[b].needs {
-                if !self.is_exact[need] {
+            for &need in &self.cut.blocks.blocks[b].needs {
+                if !self.cut.is_exact[need] {
                     sets.join([b, need]);
                 }
             }
@@ -137,24 +154,27 @@ impl Parts {
         control: &mut Control,
     ) -> PartRun {
         let mut blocks: Vec<usize> = group.to_vec();
-        let taken = self.blocks.with_needs(group.iter().copied());
+        let taken = self.cut.blocks.with_needs(group.iter().copied());
         for of in &self.together {
-            if of.iter().any(|b| taken.contains(b) && !self.is_exact[*b]) {
+            if of
+                .iter()
+                .any(|b| taken.contains(b) && !self.cut.is_exact[*b])
+            {
                 blocks.extend(of);
             }
         }
-        let blocks = self.blocks.with_needs(blocks);
+        let blocks = self.cut.blocks.with_needs(blocks);
         let unknowns: Vec<usize> = blocks
             .iter()
-            .flat_map(|&b| self.blocks.blocks[b].unknowns.iter().copied())
+            .flat_map(|&b| self.cut.blocks.blocks[b].unknowns.iter().copied())
             .collect();
         let used: Vec<Used> = blocks
             .iter()
             .flat_map(|&b| {
-                self.blocks.blocks[b]
+                self.cut.blocks.blocks[b]
                     .equations
                     .iter()
-                    .map(|&e| self.used[e])
+                    .map(|&e| self.cut.used[e])
             })
             .collect();
         if unknowns.len() > LARGEST_SQUARE {
@@ -173,17 +193,18 @@ impl Parts {
             Some(mut follower) => {
                 let homotopy = follower.homotopy_mut();
                 for (k, &used) in used.iter().enumerate() {
-                    let scale = self.unit.powi(self.power_of(used));
+                    let scale = self.cut.unit.powi(self.power_of(used));
                     homotopy.rights[k] = Right::polynomial(&self.rights_of(used, rights), scale);
                 }
                 follower
             }
             None => arcs(self.homotopy(&unknowns, &used, rights), &self.options),
         };
+        let of = |all: &[f64]| unknowns.iter().map(|&u| all[u]).collect();
         let start = Figure {
-            centre: unknowns.iter().map(|&u| self.figure[u].centre).collect(),
-            low: unknowns.iter().map(|&u| self.figure[u].low).collect(),
-            radius: unknowns.iter().map(|&u| self.figure[u].radius).collect(),
+            centre: of(&self.figure.centre),
+            low: of(&self.figure.low),
+            radius: of(&self.figure.radius),
         };
         let run = follower.follow(&start, control);
         self.ready.0.insert(blocks, follower);
@@ -201,12 +222,12 @@ impl Parts {
         let equation = |used: Used| {
             let (name, products) = match used {
                 Used::Row(row) => {
-                    let row = &self.system.rows[row];
+                    let row = &self.cut.system.rows[row];
                     let products = row.products.iter().map(|p| p.map(entry));
-                    (self.name(row.index), products.collect())
+                    (self.cut.name(row.index), products.collect())
                 }
                 Used::Held(u) => {
-                    let name = format!("{} stays put", self.system.unknowns[u].name);
+                    let name = format!("{} stays put", self.cut.system.unknowns[u].name);
                     (
                         name,
                         vec![Product::new(2, value(entry(Some(u))), Form::One)],
@@ -224,16 +245,13 @@ impl Parts {
         let beside = self.looked_at_in(unknowns);
         let beside = beside.map(|k| {
             (
-                equation(Used::Row(self.redundant[k])),
+                equation(Used::Row(self.cut.redundant[k])),
                 self.within(k, rights),
             )
         });
-        let d = self.problem.dimension;
-        let coordinates = self
-            .system
-            .coordinates
-            .iter()
-            .map(|u| local.get(u).copied());
+        let d = self.cut.problem.dimension;
+        let coordinates = self.cut.system.coordinates.iter();
+        let coordinates = coordinates.map(|u| local.get(u).copied());
         let coordinates: Vec<Option<usize>> = coordinates.collect();
         let is_here = |points: &&Vec<usize>| {
             let mut places = points.iter().flat_map(|p| (p * d)..(p * d + d));
@@ -245,24 +263,13 @@ impl Parts {
             }
             Extent::Sweep { points } => is_here(&&points.to_vec()),
         });
-        let nonzero = self.system.nonzero.iter().filter(|vector| {
-            let mut of = vector.unknowns(d);
-            of.all(|u| local.contains_key(&u))
-        });
-        let nonzero = nonzero.map(|vector| Nonzero {
-            name: vector.name.clone(),
-            forms: array(|axis| match axis < d {
-                true => vector.forms[axis].map(|e| entry(e.unknown())),
-                false => Form::Difference(Entry::Zero, Entry::Zero),
-            }),
-        });
         let mut homotopy = Homotopy::of_part(Part {
-            nonzero: nonzero.collect(),
+            nonzero: self.cut.system.nonzero_in(d, &local),
             dimension: d,
-            unit: self.unit,
+            unit: self.cut.unit,
             unknowns: unknowns
                 .iter()
-                .map(|&u| self.system.unknowns[u].clone())
+                .map(|&u| self.cut.system.unknowns[u].clone())
                 .collect(),
             equations: equations.collect(),
             followed: self.followed.iter().filter(is_here).cloned().collect(),
@@ -270,7 +277,7 @@ impl Parts {
             beside: beside.collect(),
             coordinates,
         });
-        let names = self.problem.points.iter().map(|p| p.name.clone());
+        let names = self.cut.problem.points.iter().map(|p| p.name.clone());
         homotopy.point_names = names.collect();
         homotopy
     }
@@ -280,20 +287,17 @@ impl Parts {
         &self,
         runs: Vec<PartRun>,
         worst: Option<usize>,
-        (exact, rights): (&HashMap<usize, Vec<Real>>, &[Vec<Real>]),
-        t: (f64, f64),
-    ) -> Run {
-        let upto = hull(t.0.min(0.0), t.1.min(1.0));
-        let mut out = Run {
-            end: End::Stopped(Stop::new(StopKind::Bug, "")),
+        exact: &HashMap<usize, Vec<Real>>,
+        (t, upto): ((f64, f64), Interval),
+    ) -> ArcRun {
+        let mut out = ArcRun {
             t,
             orientations: self.exact_orientations(exact, upto),
             segments: self.exact_segments(exact, upto),
-            beside: self.exact_besides((exact, rights), upto),
-            tubes: runs.iter().map(|run| run.run.steps).sum(),
+            steps: runs.iter().map(|run| run.run.steps).sum(),
             rejected: runs.iter().map(|run| run.run.rejected).sum(),
             length: runs.iter().map(|run| run.run.length).sum(),
-            switched_on: Vec::new(),
+            ..ArcRun::stopped(Stop::new(StopKind::Bug, ""))
         };
         for run in &runs {
             for remark in &run.run.switched_on {
@@ -304,48 +308,44 @@ impl Parts {
             out.orientations
                 .extend(run.run.orientations.iter().cloned());
             out.segments.extend(run.run.segments.iter().cloned());
-            let beside = run.beside.iter().copied();
-            out.beside
-                .extend(beside.zip(run.run.beside.iter().copied()));
         }
         // Nothing is said of a piece of path beyond where all of it ends.
         for orientation in &mut out.orientations {
             orientation.lost = orientation.lost.filter(|lost| lost.0 <= t.1);
         }
+        let undefined = |out: ArcRun, words: String| ArcRun {
+            end: ArcEnd::Stopped(Stop::new(StopKind::Undefined, words)),
+            t: (0.0, 0.0),
+            ..out
+        };
         for (&u, polynomial) in exact {
-            if self.system.unknowns[u].role == Role::Positive && !is_positive(polynomial) {
-                let name = &self.system.unknowns[u].name;
+            if self.cut.system.unknowns[u].role == Role::Positive && !is_positive(polynomial) {
+                let name = &self.cut.system.unknowns[u].name;
                 let words = format!("{name} does not stay positive");
-                out.end = End::Stopped(Stop::new(StopKind::Undefined, words));
-                out.t = (0.0, 0.0);
-                return out;
+                return undefined(out, words);
             }
         }
         if let Some(name) = self.vanishes_exactly(exact) {
             let words = format!(
                 "{name} may vanish on the way, and what is said of its direction would say nothing there"
             );
-            out.end = End::Stopped(Stop::new(StopKind::Undefined, words));
-            out.t = (0.0, 0.0);
-            return out;
+            return undefined(out, words);
         }
         let paths = self.paths(exact);
-        let at = |time: Interval| -> Vec<Known> {
+        let at = |time: Interval| {
             let mut figure = self.figure.clone();
             for (&u, path) in &paths {
-                figure[u] = Known::new(value_at(path, time));
+                put(&mut figure, u, value_at(path, time));
             }
             figure
         };
-        let put = |figure: &mut Vec<Known>, unknowns: &[usize], found: &Figure| {
+        let take = |figure: &mut Figure, unknowns: &[usize], found: &Figure| {
             for (k, &u) in unknowns.iter().enumerate() {
                 // Numbers known exactly are known better.
                 if !exact.contains_key(&u) {
-                    figure[u] = Known {
-                        centre: found.centre[k],
-                        low: found.low[k],
-                        radius: found.radius[k],
-                    };
+                    figure.centre[u] = found.centre[k];
+                    figure.low[u] = found.low[k];
+                    figure.radius[u] = found.radius[k];
                 }
             }
         };
@@ -353,32 +353,34 @@ impl Parts {
             let mut figure = at(point(1.0));
             for PartRun { unknowns, run, .. } in &runs {
                 if let ArcEnd::Reached(found) = &run.end {
-                    put(&mut figure, unknowns, found);
+                    take(&mut figure, unknowns, found);
                 }
             }
-            out.end = End::Reached(figure);
+            out.end = ArcEnd::Reached(figure);
             return out;
         };
         let PartRun { unknowns, run, .. } = &runs[worst];
         out.end = match &run.end {
             ArcEnd::Limit(fold) => {
-                let Fold {
-                    figure: found,
-                    velocity,
-                    t,
-                    ..
-                } = &**fold;
-                let mut figure = at(*t);
-                put(&mut figure, unknowns, found);
-                let mut all = vec![0.0; figure.len()];
-                for (k, &u) in unknowns.iter().enumerate() {
-                    all[u] = velocity[k];
-                }
-                End::Limit(figure, all)
+                let mut figure = at(fold.t);
+                take(&mut figure, unknowns, &fold.figure);
+                // What is in no part that is followed has no velocity.
+                let of_all = |of: &[f64]| {
+                    let mut all = vec![0.0; figure.centre.len()];
+                    unknowns.iter().zip(of).for_each(|(&u, &x)| all[u] = x);
+                    all
+                };
+                ArcEnd::Limit(Box::new(Fold {
+                    velocity: of_all(&fold.velocity),
+                    velocity_radius: of_all(&fold.velocity_radius),
+                    normal: of_all(&fold.normal),
+                    t: fold.t,
+                    // That is told of the part alone.
+                    alone_within: 0.0,
+                    figure,
+                }))
             }
-            ArcEnd::Passes(reason) => End::Passes(reason.clone()),
-            ArcEnd::Stopped(reason) => End::Stopped(reason.clone()),
-            ArcEnd::Reached(_) => unreachable!("it is not reached"),
+            other => other.clone(),
         };
         out
     }

@@ -1,9 +1,10 @@
 //! Constraints that are left out because they follow from others at the figure: by proof, or as far as floats tell.
 
-use super::{Known, Parts, Used, moves};
-use crate::blocks::{Given, Row, Ruler, Verdict, combination, rounded_down};
+use super::{Parts, Used, moves};
+use crate::blocks::{Given, Row, Verdict, combination, rounded_down};
 use crate::interval::{Interval, Real, point};
 use crate::system::Right;
+use crate::track::arc::Figure;
 use crate::track::{Stop, StopKind};
 
 /// What a right-hand side is at t = 1, for all t.
@@ -19,21 +20,21 @@ pub(super) fn at_rest_all(rights: &[Vec<Real>]) -> Vec<Vec<Real>> {
 impl Parts {
     /// Looks for identities by which the equations that were left out follow from the others.
     pub(super) fn find_what_follows(&mut self, rights: &[Vec<Real>]) {
-        if self.redundant.is_empty() {
+        if self.cut.redundant.is_empty() {
             return;
         }
         let given = |used: &Used| match *used {
             Used::Row(row) => {
-                let row = &self.system.rows[row];
+                let row = &self.cut.system.rows[row];
                 Given::row(row, &at_rest(&rights[row.index]))
             }
-            Used::Held(u) => Given::held(u, &self.system.values[u]),
+            Used::Held(u) => Given::held(u, &self.cut.system.values[u]),
         };
-        self.given = self.used.iter().map(given).collect();
-        let rows = self.redundant.iter().map(|&row| &self.system.rows[row]);
-        self.follows = rows.map(|row| combination(row, &self.given)).collect();
+        self.given = self.cut.used.iter().map(given).collect();
+        let count = 0..self.cut.redundant.len();
+        let how = |k: usize| combination(self.cut.left_out(k), &self.given);
+        self.follows = count.clone().map(how).collect();
         let rights = at_rest_all(rights);
-        let count = 0..self.redundant.len();
         self.proved = count.map(|k| self.is_proved(k, &rights)).collect();
     }
 
@@ -43,8 +44,8 @@ impl Parts {
         let Some(Some(how)) = self.follows.get(redundant) else {
             return false;
         };
-        let row = &self.system.rows[self.redundant[redundant]];
-        let of = |i: usize| self.rights_of(self.used[i], rights);
+        let row = self.cut.left_out(redundant);
+        let of = |i: usize| self.rights_of(self.cut.used[i], rights);
         how.holds(&rights[row.index], of, |k| self.given[k].constant())
     }
 
@@ -52,7 +53,7 @@ impl Parts {
     pub(super) fn note_what_follows(&mut self, rights: &[Vec<Real>]) {
         let rights = at_rest_all(rights);
         let all = |parts: &Self| -> Vec<bool> {
-            let count = 0..parts.redundant.len();
+            let count = 0..parts.cut.redundant.len();
             count.map(|k| parts.is_proved(k, &rights)).collect()
         };
         let now = all(self);
@@ -70,18 +71,20 @@ impl Parts {
     /// How a figure stands to each equation that was left out, by its place among these. `time`: t there, where that is not 1.
     pub(super) fn verdicts(
         &self,
-        figure: &[Known],
+        figure: &Figure,
         rights: &[Vec<Real>],
         time: Option<Interval>,
     ) -> Vec<Verdict> {
-        let rows = self.redundant.iter().enumerate();
+        let rows = self.cut.redundant.iter().enumerate();
         rows.map(|(k, &row)| {
             if self.is_proved(k, rights) {
                 return Verdict::Follows;
             }
-            let unit = point(self.scale(self.system.rows[row].index));
+            let unit = point(self.scale(self.cut.system.rows[row].index));
             let (miss, right) = self.sides(row, figure, rights, time);
-            self.ruler(k).verdict(miss * unit, right * unit)
+            self.cut
+                .ruler(k, self.options.redundant_tolerance)
+                .verdict(miss * unit, right * unit)
         })
         .collect()
     }
@@ -90,14 +93,14 @@ impl Parts {
     pub(super) fn sides(
         &self,
         row: usize,
-        figure: &[Known],
+        figure: &Figure,
         rights: &[Vec<Real>],
         time: Option<Interval>,
     ) -> (Interval, Interval) {
-        let at = |entry: Option<usize>| entry.map_or(point(0.0), |u| figure[u].enclosure());
+        let at = |entry: Option<usize>| entry.map_or(point(0.0), |u| figure.enclosure(u));
         let Row {
             index, products, ..
-        } = &self.system.rows[row];
+        } = &self.cut.system.rows[row];
         let left = products.iter().fold(point(0.0), |sum, p| {
             sum + point(0.5 * f64::from(p.factor)) * p.value(at)
         });
@@ -109,21 +112,13 @@ impl Parts {
         (left - right, right)
     }
 
-    /// How an equation that was left out is measured.
-    pub(super) fn ruler(&self, redundant: usize) -> Ruler {
-        let index = self.system.rows[self.redundant[redundant]].index;
-        let measured = (self.unit, self.powers[index]);
-        let tolerance = self.options.redundant_tolerance;
-        Ruler::new(&self.problem, self.owners[index], measured, tolerance)
-    }
-
     /// The first constraint that was left out and is proved to be missed, by its place, and what to say of it.
     pub(super) fn missed(&self, verdicts: &[Verdict]) -> Option<(usize, Stop)> {
         verdicts.iter().enumerate().find_map(|(k, verdict)| {
             let &Verdict::Missed { by } = verdict else {
                 return None;
             };
-            let name = self.name(self.system.rows[self.redundant[k]].index);
+            let name = self.cut.name_left_out(k);
             let words = format!(
                 "{name} contradicts the other constraints: the figure that meets them misses it by at least {}, proved",
                 rounded_down(by)
@@ -134,14 +129,14 @@ impl Parts {
 
     /// A dimension that is to move but follows from others, and not so as these move.
     pub(super) fn unmovable(&self, rights: &[Vec<Real>]) -> Option<String> {
-        let redundant = self.redundant.iter().enumerate();
+        let redundant = self.cut.redundant.iter().enumerate();
         let redundant = redundant.filter(|(k, _)| !self.is_proved(*k, rights));
-        let redundant = redundant.map(|(_, &row)| self.system.rows[row].index);
-        let mut all = redundant.chain(self.system.implied.iter().copied());
+        let redundant = redundant.map(|(_, &row)| self.cut.system.rows[row].index);
+        let mut all = redundant.chain(self.cut.system.implied.iter().copied());
         let fixed = all.find(|&index| moves(&rights[index]))?;
         Some(format!(
             "{} follows from the other constraints at this figure and cannot change by itself, nor otherwise than they make it all along the way",
-            self.name(fixed)
+            self.cut.name(fixed)
         ))
     }
 }

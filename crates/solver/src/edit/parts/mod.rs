@@ -18,18 +18,18 @@ pub(super) mod senses;
 mod standing;
 mod words;
 
-use crate::blocks::{Account, Blocks, Combination, Cut, Given, Singular, System, Used, Verdict};
-use crate::constraint::{Entry, Posed, Record, try_lower_all};
+use crate::blocks::{Account, Combination, Cut, Given, Used, Verdict};
+use crate::constraint::try_lower_all;
 use crate::edit::ending::{Astray, Edited, Ending, Keep, Limit, Orientations};
 use crate::edit::lowered;
-use crate::edit::open::{Moved, OpenError};
+use crate::edit::open::{Moved, OpenError, furthest, reached};
 use crate::edit::segments::{NARROWER, Reversed, first_lost, segments, stop};
 use crate::edit::setting::Setting;
 use crate::interval::{Interval, Real, hull, point};
 use crate::places::array;
 use crate::problem::Problem;
 use crate::system::{Extent, Located, Segment};
-use crate::track::arc::{Kept, Off, Orientation};
+use crate::track::arc::{ArcEnd, ArcRun, Figure, Fold, Orientation};
 use crate::track::certified::FollowArcs;
 use crate::track::{Control, Options, StartError, Stop, StopKind};
 use left_out::at_rest_all;
@@ -39,28 +39,6 @@ use std::time::Instant;
 /// A part is followed over so many tubes and then given up. Edits of real sketches take a few; those that came to so
 /// many had ever longer tubes and ever larger figures, as where two lines become parallel.
 pub(super) const MOST_TUBES: usize = 1000;
-
-/// A number that is known up to a radius, in the homotopy's unit.
-#[derive(Debug, Clone, Copy)]
-struct Known {
-    centre: f64,
-    low: f64,
-    radius: f64,
-}
-
-impl Known {
-    fn new(x: Interval) -> Self {
-        Known {
-            centre: x.mid(),
-            low: 0.0,
-            radius: x.rad(),
-        }
-    }
-
-    fn enclosure(self) -> Interval {
-        point(self.centre) + point(self.low) + hull(-self.radius, self.radius)
-    }
-}
 
 /// Followers of parts that were needed before, by their blocks. A copy has none yet.
 #[derive(Debug, Default)]
@@ -75,14 +53,9 @@ impl Clone for Followers {
 /// A sketch and its figure.
 #[derive(Debug, Clone)]
 pub(super) struct Parts {
-    problem: Problem,
     options: Options,
-    record: Record,
-    /// The power of the unit of length of each of the problem's equations.
-    powers: Vec<i32>,
-    system: System,
-    used: Vec<Used>,
-    redundant: Vec<usize>,
+    /// Its equations, and how they are cut.
+    cut: Cut,
     /// What those used say, and for each redundant row how it follows from them, if that was found.
     given: Vec<Given>,
     follows: Vec<Option<Combination>>,
@@ -90,32 +63,19 @@ pub(super) struct Parts {
     proved: Vec<bool>,
     /// How the figure stands to each.
     verdicts: Vec<Verdict>,
-    free: Vec<usize>,
-    blocks: Blocks,
-    /// Blocks of one equation that is linear in exactly known numbers.
-    is_exact: Vec<bool>,
-    /// Whose equation each of the problem's is: objects, constraints, none, distances.
-    owners: Vec<usize>,
     /// Blocks that are followed together if any of them moves: those of points of which the orientation is a sense, and
     /// those of vectors that must not vanish.
     together: Vec<BTreeSet<usize>>,
-    /// For each object its radius, if it is a circle.
-    numbers: Vec<Option<usize>>,
-    /// See [`Cut::told`].
-    told: (Vec<Vec<Entry>>, Vec<Posed>),
     /// Points of which the orientation is a sense that constraints leave open: followed always.
     senses: Vec<Vec<usize>>,
     /// Those, and points that distances join, which are followed where all of them are in one part.
     followed: Vec<Vec<usize>>,
     /// Lines along an axis and arcs, which must not vanish: followed always.
     segments: Vec<Segment>,
-    figure: Vec<Known>,
-    /// Where the drawing was singular: what was so about it.
-    singular: Option<Singular>,
+    figure: Figure,
     /// Circles that touch lines by their numbers, which have equations that were added; and the problem without these.
     contacts: Vec<contacts::Kept>,
     plain: Option<Box<Problem>>,
-    unit: f64,
     moved: Moved,
     ready: Followers,
     /// By how much unknowns that are held otherwise change on the way, in the unit of the problem.
@@ -124,34 +84,12 @@ pub(super) struct Parts {
     looked_at: Vec<usize>,
 }
 
-/// A path of the whole sketch.
-struct Run {
-    end: End,
-    t: (f64, f64),
-    orientations: Vec<Orientation>,
-    segments: Vec<Kept>,
-    /// How far its figures are off what is looked at, by place.
-    beside: Vec<(usize, Off)>,
-    tubes: usize,
-    rejected: usize,
-    length: f64,
-    switched_on: Vec<String>,
-}
-
 /// What is proved of the figures of a run.
 struct Judged {
     /// How the last one stands to what was left out.
     verdicts: Vec<Verdict>,
     account: Account,
     astray: Option<Astray>,
-}
-
-enum End {
-    Reached(Vec<Known>),
-    /// The figure there and the velocity of each unknown.
-    Limit(Vec<Known>, Vec<f64>),
-    Passes(Stop),
-    Stopped(Stop),
 }
 
 fn refuse(what: String) -> OpenError {
@@ -167,7 +105,7 @@ impl Parts {
     ) -> Result<Self, OpenError> {
         let (mut parts, rights) = Self::assemble(problem, options).map_err(refuse)?;
         match parts.lead(&rights, control) {
-            Ok(()) if parts.singular.is_some() => {
+            Ok(()) if parts.cut.singular.is_some() => {
                 parts.find_other(problem, 0, control);
                 Ok(parts)
             }
@@ -192,75 +130,54 @@ impl Parts {
         way: u64,
     ) -> Result<(Self, Vec<Vec<Real>>), String> {
         let asked = problem;
-        let (cut, contacts) = contacts::followed(asked, Cut::drawn(asked, way)?, way);
+        let (mut cut, contacts) = contacts::followed(asked, Cut::drawn(asked, way)?, way);
+        let rights = std::mem::take(&mut cut.rights);
         let Cut {
             problem,
             system,
-            used,
-            redundant,
-            free,
-            blocks,
-            is_exact,
-            rights,
-            powers,
-            numbers,
-            told,
-            record,
             unit,
-            owners,
-            has_twins: _,
-            own: _,
-            singular,
-            drawn: _,
-        } = cut;
+            ..
+        } = &cut;
         let mut plain = problem.clone();
         plain.constraints.truncate(asked.constraints.len());
         let plain = (!contacts.is_empty()).then(|| Box::new(plain));
         let values = system.unknowns.iter().zip(&system.values);
-        let scaled = values.map(|(unknown, value)| {
+        let none = vec![0.0; values.len()];
+        let mut figure = Figure {
+            centre: none.clone(),
+            low: none.clone(),
+            radius: none,
+        };
+        for (u, (unknown, value)) in values.enumerate() {
             let scale = unit.powi(unknown.power);
-            Known::new(value.enclose() * point(1.0 / scale))
-        });
-        let figure = scaled.collect();
+            put(&mut figure, u, value.enclose() * point(1.0 / scale));
+        }
         let mut parts = Parts {
             senses: senses::senses(asked),
             followed: senses::followed(asked),
             contacts,
             plain,
-            segments: segments(&problem, |a, b, axis| {
+            segments: segments(problem, |a, b, axis| {
                 let place = |p: usize| system.coordinates[p * problem.dimension + axis];
                 place(a) == place(b)
             }),
-            problem,
             options: Options {
                 space: crate::track::Space::Full,
                 reverse: false,
                 max_steps: options.max_steps.min(MOST_TUBES),
                 ..options.clone()
             },
-            record,
-            powers,
             given: Vec::new(),
             follows: Vec::new(),
             proved: Vec::new(),
             verdicts: Vec::new(),
-            used,
-            redundant,
-            free,
-            is_exact,
             together: Vec::new(),
-            owners,
-            numbers,
-            told,
             figure,
-            singular,
-            unit,
             moved: Moved::default(),
             ready: Followers::default(),
             led: HashMap::new(),
             looked_at: Vec::new(),
-            blocks,
-            system,
+            cut,
         };
         parts.drop_flat_triples();
         parts.together = parts.bound_together();
@@ -272,33 +189,11 @@ impl Parts {
     fn lead(&mut self, rights: &[Vec<Real>], control: &mut Control) -> Result<(), OpenError> {
         let mut run = self.follow(rights, control);
         self.end_where_segments_vanish((&[], rights), &mut run, control);
-        let failed = |ending: Ending, what: String| OpenError::Correction {
-            what,
-            ending: Box::new(ending),
-        };
-        let figure = match run.end {
-            End::Reached(figure) => figure,
-            End::Limit(..) => {
-                let what = format!(
-                    "on the way there, at t = {:.6}, the figure comes to a limit and turns back",
-                    run.t.0
-                );
-                let stop = Stop::new(StopKind::TurnsBack, &*what);
-                return Err(failed(Ending::Stopped(stop), what));
-            }
-            End::Passes(reason) => {
-                let what = format!("on the way there branches seem to meet ({reason})");
-                return Err(failed(Ending::Passes(reason), what));
-            }
-            End::Stopped(reason) => {
-                let what = reason.text.clone();
-                return Err(failed(Ending::Stopped(reason), what));
-            }
-        };
+        let figure = reached(run.end, run.t)?;
         let distance = self.distance(&figure);
         self.moved = Moved {
             distance,
-            tubes: run.tubes.max(usize::from(distance > 0.0)),
+            tubes: run.steps.max(usize::from(distance > 0.0)),
         };
         self.figure = figure;
         self.verdicts = self.verdicts(&self.figure, &at_rest_all(rights), None);
@@ -307,19 +202,15 @@ impl Parts {
             .map(|(_, stop)| stop)
             .or_else(|| self.vanished(&self.figure))
         {
-            Some(stop) => {
-                let stop = self.sober(stop);
-                let what = stop.text.clone();
-                Err(failed(Ending::Stopped(stop), what))
-            }
+            Some(stop) => Err(OpenError::stopped(self.sober(stop))),
             None => Ok(()),
         }
     }
 
     /// Triples of which two points are one and the same have no orientation.
     fn drop_flat_triples(&mut self) {
-        let d = self.problem.dimension;
-        let coordinates = &self.system.coordinates;
+        let d = self.cut.problem.dimension;
+        let coordinates = &self.cut.system.coordinates;
         let place = |p: usize| &coordinates[p * d..(p + 1) * d];
         let differ = |points: &Vec<usize>| {
             let mut places: Vec<&[usize]> = points.iter().map(|&p| place(p)).collect();
@@ -331,14 +222,16 @@ impl Parts {
     }
 
     fn bound_together(&self) -> Vec<BTreeSet<usize>> {
-        let d = self.problem.dimension;
+        let d = self.cut.problem.dimension;
         let blocks = |unknowns: Vec<usize>| {
-            let blocks = unknowns.into_iter().map(|u| self.blocks.of_unknown[u]);
+            let blocks = unknowns.into_iter().map(|u| self.cut.blocks.of_unknown[u]);
             blocks.collect()
         };
         let senses = self.senses.iter().map(|points| {
             let places = points.iter().flat_map(|p| (p * d)..(p * d + d));
-            places.map(|place| self.system.coordinates[place]).collect()
+            places
+                .map(|place| self.cut.system.coordinates[place])
+                .collect()
         });
         let segments = self.segments.iter().map(|segment| {
             let axes = match segment.extent {
@@ -347,9 +240,11 @@ impl Parts {
             };
             let points = segment.extent.points().iter();
             let places = points.flat_map(|p| axes.clone().map(move |axis| p * d + axis));
-            places.map(|place| self.system.coordinates[place]).collect()
+            places
+                .map(|place| self.cut.system.coordinates[place])
+                .collect()
         });
-        let vectors = self.system.nonzero.iter();
+        let vectors = self.cut.system.nonzero.iter();
         let vectors = vectors.map(|vector| vector.unknowns(d).collect());
         let rows = self
             .looked_at
@@ -360,7 +255,7 @@ impl Parts {
     }
 
     pub fn problem(&self) -> &Problem {
-        self.plain.as_deref().unwrap_or(&self.problem)
+        self.plain.as_deref().unwrap_or(&self.cut.problem)
     }
 
     pub fn moved(&self) -> Moved {
@@ -372,13 +267,13 @@ impl Parts {
         self.points_of(&self.figure)
     }
 
-    fn points_of(&self, figure: &[Known]) -> Vec<[Interval; 3]> {
-        let (d, unit) = (self.problem.dimension, point(self.unit));
+    fn points_of(&self, figure: &Figure) -> Vec<[Interval; 3]> {
+        let (d, unit) = (self.cut.problem.dimension, point(self.cut.unit));
         let coordinate = |p: usize, axis: usize| match axis < d {
-            true => figure[self.system.coordinates[p * d + axis]].enclosure() * unit,
+            true => figure.enclosure(self.cut.coordinate(p, axis)) * unit,
             false => point(0.0),
         };
-        (0..self.problem.points.len())
+        (0..self.cut.problem.points.len())
             .map(|p| array(|axis| coordinate(p, axis)))
             .collect()
     }
@@ -388,27 +283,23 @@ impl Parts {
         self.objects_of(&self.figure)
     }
 
-    fn objects_of(&self, figure: &[Known]) -> Vec<Located> {
+    fn objects_of(&self, figure: &Figure) -> Vec<Located> {
         let points = self.points_of(figure);
-        let at = |u: usize| figure[u].enclosure();
-        let system = &self.system;
-        system.locate(&self.problem, &self.told, &points, self.unit, at)
+        let at = |u: usize| figure.enclosure(u);
+        let system = &self.cut.system;
+        system.locate(
+            &self.cut.problem,
+            &self.cut.told,
+            &points,
+            self.cut.unit,
+            at,
+        )
     }
 
-    /// The figure in floats, in the homotopy's unit.
-    fn centres(&self) -> Vec<f64> {
-        self.figure.iter().map(|known| known.centre).collect()
-    }
-
-    fn distance(&self, figure: &[Known]) -> f64 {
-        let (old, new) = (self.points(), self.points_of(figure));
-        let apart = old.iter().zip(&new).map(|(a, b)| {
-            let sum = (0..3).fold(point(0.0), |sum, k| sum + (a[k] - b[k]).sqr());
-            sum.sqrt().sup()
-        });
+    fn distance(&self, figure: &Figure) -> f64 {
+        let apart = furthest(&self.points(), &self.points_of(figure));
         // Where nothing moved the enclosures are of one and the same point.
-        let apart = apart.fold(0.0, f64::max);
-        if apart > 1e-15 * self.unit {
+        if apart > 1e-15 * self.cut.unit {
             apart
         } else {
             0.0
@@ -418,17 +309,20 @@ impl Parts {
     /// Follows the figure as its dimensions change.
     fn continued(&mut self, settings: &[Setting], keep: Keep, control: &mut Control) -> Edited {
         let clock = Instant::now();
-        let mut problem = self.problem.clone();
+        let mut problem = self.cut.problem.clone();
         for setting in settings {
             setting.apply(&mut problem);
         }
         let mut astray = None;
         let (edited, reached) = match lowered(&problem, |problem| {
-            try_lower_all(problem, Some(&self.record))
+            try_lower_all(problem, Some(&self.cut.record))
         }) {
             Err(fault) => {
                 let stop = Stop::new(StopKind::Refused, fault);
-                (self.edited(settings, stopped(stop), self.scope()), None)
+                (
+                    self.edited(settings, ArcRun::stopped(stop), self.scope()),
+                    None,
+                )
             }
             Ok(lowered) => {
                 let rights: Vec<Vec<Real>> = lowered
@@ -438,13 +332,13 @@ impl Parts {
                     .map(|e| e.right)
                     .collect();
                 let mut run = match self.unmovable(&rights) {
-                    Some(what) => stopped(Stop::new(StopKind::Contradiction, what)),
+                    Some(what) => ArcRun::stopped(Stop::new(StopKind::Contradiction, what)),
                     None => self.follow(&rights, control),
                 };
                 let judged = self.judge((settings, &rights), &mut run, control);
                 astray = judged.astray;
                 let figure = match &run.end {
-                    End::Reached(reached) => {
+                    ArcEnd::Reached(reached) => {
                         Some((reached.clone(), lowered.record, rights, judged.verdicts))
                     }
                     _ => None,
@@ -460,7 +354,7 @@ impl Parts {
         if let Some((figure, record, rights, verdicts)) = reached
             && keep.is_taken(&edited)
         {
-            (self.figure, self.record, self.problem) = (figure, record, problem);
+            (self.figure, self.cut.record, self.cut.problem) = (figure, record, problem);
             if let Some(plain) = &mut self.plain {
                 settings.iter().for_each(|setting| setting.apply(plain));
             }
@@ -474,18 +368,20 @@ impl Parts {
     fn judge(
         &mut self,
         (settings, rights): (&[Setting], &[Vec<Real>]),
-        run: &mut Run,
+        run: &mut ArcRun,
         control: &mut Control,
     ) -> Judged {
         self.end_where_segments_vanish((settings, rights), run, control);
         let verdicts = match &run.end {
-            End::Reached(reached) => self.verdicts(reached, rights, None),
-            End::Limit(there, _) => self.verdicts(there, rights, Some(hull(run.t.0, run.t.1))),
+            ArcEnd::Reached(reached) => self.verdicts(reached, rights, None),
+            ArcEnd::Limit(fold) => {
+                self.verdicts(&fold.figure, rights, Some(hull(run.t.0, run.t.1)))
+            }
             _ => self.verdicts.clone(),
         };
         let stop = self.missed(&verdicts).map(|(_, stop)| stop);
         let stop = stop.or_else(|| match &run.end {
-            End::Reached(reached) => self.vanished(reached),
+            ArcEnd::Reached(reached) => self.vanished(reached),
             _ => None,
         });
         let way = self.look_on_the_way(rights, run, control);
@@ -504,7 +400,9 @@ impl Parts {
             let values = settings.iter();
             Astray {
                 t: *t,
-                values: values.map(|s| s.between(&self.problem, there)).collect(),
+                values: values
+                    .map(|s| s.between(&self.cut.problem, there))
+                    .collect(),
                 stop: stop.clone(),
                 account: self.account_of(|k| with_way(k, self.verdicts[k])),
             }
@@ -512,7 +410,7 @@ impl Parts {
         if let Some(what) = stop {
             // Up to where a figure first misses it, if that was told.
             let t = astray.as_ref().map_or(0.0, |astray| astray.t.0.max(0.0));
-            (run.end, run.t) = (End::Stopped(what), (t, t));
+            (run.end, run.t) = (ArcEnd::Stopped(what), (t, t));
         }
         Judged {
             verdicts,
@@ -525,7 +423,7 @@ impl Parts {
     fn end_where_segments_vanish(
         &mut self,
         (settings, rights): (&[Setting], &[Vec<Real>]),
-        run: &mut Run,
+        run: &mut ArcRun,
         control: &mut Control,
     ) {
         for radius in NARROWER {
@@ -533,61 +431,71 @@ impl Parts {
                 return;
             }
             let wide = (self.options.tube_radius, std::mem::take(&mut self.ready));
-            self.options.tube_radius = Some(radius * self.unit);
+            self.options.tube_radius = Some(radius * self.cut.unit);
             let again = self.follow(rights, control);
             (self.options.tube_radius, self.ready) = wide;
-            run.tubes += again.tubes;
-            let is_told = matches!(again.end, End::Reached(_) | End::Limit(..));
+            run.steps += again.steps;
+            let is_told = matches!(again.end, ArcEnd::Reached(_) | ArcEnd::Limit(_));
             if !is_told && self.lost_segment(settings, &again).is_none() {
                 break;
             }
             run.segments = again.segments;
         }
         if let Some((stop, t)) = self.lost_segment(settings, run) {
-            (run.end, run.t) = (End::Stopped(stop), t);
+            (run.end, run.t) = (ArcEnd::Stopped(stop), t);
         }
     }
 
     /// Why a run ends at a line or arc that shrinks to nothing, and where, if it does.
-    fn lost_segment(&self, settings: &[Setting], run: &Run) -> Option<(Stop, (f64, f64))> {
-        let (head, d) = (self.problem.distances.len(), self.problem.dimension);
+    fn lost_segment(&self, settings: &[Setting], run: &ArcRun) -> Option<(Stop, (f64, f64))> {
+        let head = self.cut.problem.distances.len();
         let reversed = settings.iter().filter_map(|s| {
             let (from, to) = (self.value(s.index), s.value());
-            Reversed::new(&self.problem, s.index.checked_sub(head)?, from, to)
+            Reversed::new(&self.cut.problem, s.index.checked_sub(head)?, from, to)
         });
         let reversed: Vec<Reversed> = reversed.collect();
-        let place = |p: usize, axis: usize| self.system.coordinates[p * d + axis];
+        let place = |p: usize, axis: usize| self.cut.coordinate(p, axis);
         let is_same = |a: usize, b: usize, axis: usize| place(a, axis) == place(b, axis);
-        let is_zero = |p: usize, axis: usize| self.figure[place(p, axis)].enclosure() == point(0.0);
+        let is_zero = |p: usize, axis: usize| self.figure.enclosure(place(p, axis)) == point(0.0);
         let is_asked = |object: usize| {
             let segment = self.segments.iter().find(|s| s.object == object);
             segment.is_some_and(|s| reversed.iter().any(|r| r.is_of(s, is_same, is_zero)))
         };
         let (kept, t) = first_lost(&run.segments, run.t, is_asked)?;
-        Some((stop(&self.problem, kept), t))
+        Some((stop(&self.cut.problem, kept), t))
     }
 
     /// What right-hand sides of an equation are divided by. Every product of it has the same power of the unit.
     fn scale(&self, index: usize) -> f64 {
-        self.unit.powi(self.powers[index])
+        self.cut.unit.powi(self.cut.powers[index])
     }
 
-    fn edited(&self, settings: &[Setting], run: Run, account: Account) -> Edited {
+    /// An edit that is reached where the figure is.
+    fn standing_still(&self) -> Edited {
+        let run = ArcRun {
+            end: ArcEnd::Reached(self.figure.clone()),
+            t: (1.0, 1.0),
+            ..ArcRun::stopped(Stop::new(StopKind::Enough, ""))
+        };
+        self.edited(&[], run, self.scope())
+    }
+
+    fn edited(&self, settings: &[Setting], run: ArcRun, account: Account) -> Edited {
         let t = hull(run.t.0, run.t.1);
-        let is_reached = matches!(run.end, End::Reached(_));
+        let is_reached = matches!(run.end, ArcEnd::Reached(_));
         let t = (!is_reached).then_some(t);
         let dimensions = settings
             .iter()
-            .map(|s| s.at(&self.problem, self.value(s.index), t));
+            .map(|s| s.at(&self.cut.problem, self.value(s.index), t));
         let dimensions = dimensions.collect();
         let (ending, reached) = match run.end {
-            End::Reached(figure) => (Ending::Reached, Some(figure)),
-            End::Limit(figure, velocity) => {
-                let limit = self.limit(&figure, &velocity, &run.orientations);
-                (Ending::Limit(limit), Some(figure))
+            ArcEnd::Reached(figure) => (Ending::Reached, Some(figure)),
+            ArcEnd::Limit(fold) => {
+                let limit = self.limit(&fold, &run.orientations);
+                (Ending::Limit(limit), Some(fold.figure))
             }
-            End::Passes(reason) => (Ending::Passes(reason), None),
-            End::Stopped(reason) => (Ending::Stopped(reason), None),
+            ArcEnd::Passes(reason) => (Ending::Passes(reason), None),
+            ArcEnd::Stopped(reason) => (Ending::Stopped(reason), None),
         };
         let figure = reached.as_ref().unwrap_or(&self.figure);
         let contacts = self.contacts.iter().map(contacts::Kept::in_words);
@@ -598,7 +506,7 @@ impl Parts {
             points: self.points_of(figure),
             objects: self.objects_of(figure),
             orientations: Orientations::new(run.orientations),
-            tubes: run.tubes,
+            tubes: run.steps,
             rejected: run.rejected,
             length: run.length,
             switched_on: contacts.chain(run.switched_on).collect(),
@@ -611,35 +519,32 @@ impl Parts {
     }
 
     /// What is special about a fold's figure.
-    fn limit(&self, figure: &[Known], velocity: &[f64], orientations: &[Orientation]) -> Limit {
-        let d = self.problem.dimension;
-        let motion = (0..self.problem.points.len()).map(|p| {
+    fn limit(&self, fold: &Fold, orientations: &[Orientation]) -> Limit {
+        let d = self.cut.problem.dimension;
+        let motion = (0..self.cut.problem.points.len()).map(|p| {
             array(|axis| match axis < d {
-                true => velocity[self.system.coordinates[p * d + axis]],
+                true => fold.velocity[self.cut.coordinate(p, axis)],
                 false => 0.0,
             })
         });
-        Limit::new(&self.points_of(figure), orientations, motion.collect())
+        Limit::new(
+            &self.points_of(&fold.figure),
+            orientations,
+            motion.collect(),
+        )
     }
 
     /// What a dimension is now: an enclosure.
     pub fn value(&self, index: usize) -> Interval {
-        Setting::now(&self.problem, index).value()
+        Setting::now(&self.cut.problem, index).value()
     }
 }
 
-fn stopped(reason: Stop) -> Run {
-    Run {
-        end: End::Stopped(reason),
-        t: (0.0, 0.0),
-        orientations: Vec::new(),
-        segments: Vec::new(),
-        beside: Vec::new(),
-        tubes: 0,
-        rejected: 0,
-        length: 0.0,
-        switched_on: Vec::new(),
-    }
+/// Makes an unknown of a figure what an interval in the homotopy's unit says.
+fn put(figure: &mut Figure, unknown: usize, x: Interval) {
+    figure.centre[unknown] = x.mid();
+    figure.low[unknown] = 0.0;
+    figure.radius[unknown] = x.rad();
 }
 
 /// Whether a right-hand side changes with t.

@@ -2,7 +2,7 @@
 
 use super::Parts;
 use crate::blocks::Singular;
-use crate::edit::ending::{Dimension, Edited, Ending, Keep, Orientations};
+use crate::edit::ending::{Dimension, Edited, Ending, Keep};
 use crate::edit::setting::Setting;
 use crate::places::Each as _;
 use crate::problem::Problem;
@@ -15,17 +15,20 @@ const WAYS: u64 = 6;
 impl Parts {
     /// What was singular about the drawing.
     pub fn singular(&self) -> Option<&Singular> {
-        self.singular.as_ref()
+        self.cut.singular.as_ref()
     }
 
     /// Whether the figure that was drawn is singular itself, so that it was not moved.
     pub(super) fn is_singular_figure(&self) -> bool {
-        self.singular.as_ref().is_some_and(|s| s.moved.is_none())
+        self.cut
+            .singular
+            .as_ref()
+            .is_some_and(|s| s.moved.is_none())
     }
 
     /// At a singular figure nothing is said of which constraint contradicts others, and with contacts that are kept nothing of others.
     pub(super) fn sober(&self, stop: Stop) -> Stop {
-        match &self.singular {
+        match &self.cut.singular {
             Some(singular) if stop.kind == StopKind::Contradiction => Stop::new(
                 stop.kind,
                 format!(
@@ -82,7 +85,7 @@ impl Parts {
 
     /// The drawing, moved off where it is singular in another way than the first, and led to its dimensions.
     pub(super) fn lead_otherwise(&self, problem: &Problem, control: &mut Control) -> Option<Self> {
-        self.singular.as_ref()?.moved?;
+        self.cut.singular.as_ref()?.moved?;
         (1..WAYS).find_map(|way| {
             let (mut parts, rights) = Self::assemble_in(problem, &self.options, way).ok()?;
             parts.lead(&rights, control).ok()?;
@@ -103,11 +106,11 @@ impl Parts {
             return;
         }
         let (own, others) = (self.points(), twin.points());
-        let pairs = self.problem.points.iter().zip(own.iter().zip(&others));
+        let pairs = self.cut.problem.points.iter().zip(own.iter().zip(&others));
         let elsewhere = pairs.filter(|(_, (a, b))| (0..3).any(|k| a[k].disjoint(b[k])));
         let other = elsewhere.map(|(point, (_, b))| (point.name.clone(), b.each(|x| x.mid())));
         let other = other.collect();
-        if let Some(singular) = &mut self.singular {
+        if let Some(singular) = &mut self.cut.singular {
             singular.other = other;
         }
     }
@@ -126,7 +129,7 @@ impl Parts {
             .iter()
             .for_each(|setting| setting.apply(&mut changed));
         let parts = Self::open(&changed, &self.options, control).ok()?;
-        parts.singular.as_ref()?.moved?;
+        parts.cut.singular.as_ref()?.moved?;
         let dimensions = settings.iter().map(|setting| Dimension {
             index: setting.index,
             from: self.value(setting.index),
@@ -134,21 +137,12 @@ impl Parts {
             value: setting.value(),
         });
         let edited = Edited {
-            ending: Ending::Reached,
-            t: (1.0, 1.0),
             dimensions: dimensions.collect(),
-            points: parts.points(),
-            objects: parts.objects(),
-            orientations: Orientations::default(),
             tubes: parts.moved.tubes,
-            rejected: 0,
-            length: 0.0,
             switched_on: Vec::new(),
-            account: parts.scope(),
-            singular: parts.singular.clone(),
-            astray: None,
-            dragged: None,
+            singular: parts.cut.singular.clone(),
             seconds: clock.elapsed().as_secs_f64(),
+            ..parts.standing_still()
         };
         if keep.is_taken(&edited) {
             *self = parts;

@@ -2,12 +2,12 @@
 //!
 //! The way is followed a second time, in tubes so narrow that it can be told.
 
-use super::{End, Parts, Run};
+use super::Parts;
 use crate::blocks::{Verdict, rounded_down};
 use crate::equations::Form;
 use crate::interval::{Interval, Real, hull, point};
 use crate::system::Right;
-use crate::track::arc::Off;
+use crate::track::arc::{ArcEnd, ArcRun, Off};
 use crate::track::{Control, Stop, StopKind};
 use std::collections::{HashMap, HashSet};
 use std::mem;
@@ -31,14 +31,14 @@ impl Parts {
     pub(super) fn look_on_the_way(
         &mut self,
         rights: &[Vec<Real>],
-        run: &mut Run,
+        run: &mut ArcRun,
         control: &mut Control,
     ) -> OnTheWay {
         let mut out = OnTheWay::default();
         let moving = self.moving(rights);
-        let moves = |u: usize| moving[self.blocks.of_unknown[u]];
+        let moves = |u: usize| moving[self.cut.blocks.of_unknown[u]];
         let is_doubtful = |&k: &usize| !self.is_proved(k, rights) && self.unknowns_of(k).any(moves);
-        let mut doubtful: Vec<usize> = (0..self.redundant.len()).filter(is_doubtful).collect();
+        let mut doubtful: Vec<usize> = (0..self.cut.redundant.len()).filter(is_doubtful).collect();
         if run.t.0 <= 0.0 {
             return out;
         }
@@ -50,15 +50,15 @@ impl Parts {
             if doubtful.is_empty() {
                 break;
             }
-            let again = self.follow_looking(&doubtful, radius, rights, control);
-            run.tubes += again.tubes;
+            let (again, places) = self.follow_looking(&doubtful, radius, rights, control);
+            run.steps += again.steps;
             match run.end {
-                End::Reached(_) | End::Limit(..) if again.t.1 < run.t.0 => break,
-                End::Reached(_) | End::Limit(..) => {}
+                ArcEnd::Reached(_) | ArcEnd::Limit(_) if again.t.1 < run.t.0 => break,
+                ArcEnd::Reached(_) | ArcEnd::Limit(_) => {}
                 _ if again.t.0 < run.t.0 => run.t = again.t,
                 _ => {}
             }
-            for (k, off) in again.beside {
+            for (k, off) in places.into_iter().zip(again.beside) {
                 let (verdict, missed) = self.verdict_on_the_way(k, off, again.t.1, rights);
                 let is_told = !matches!(verdict, Verdict::Undecided { .. }) || missed.is_some();
                 out.verdicts.insert(k, verdict);
@@ -71,21 +71,21 @@ impl Parts {
         out
     }
 
-    /// Follows all that moves, looking at some of what was left out.
+    /// Follows all that moves, looking at some of what was left out: at what the run tells how far it is off, by place.
     fn follow_looking(
         &mut self,
         looked_at: &[usize],
         radius: f64,
         rights: &[Vec<Real>],
         control: &mut Control,
-    ) -> Run {
+    ) -> (ArcRun, Vec<usize>) {
         let options = self.options.clone();
         let (ready, together) = (mem::take(&mut self.ready), mem::take(&mut self.together));
-        self.options.tube_radius = Some(radius * self.unit);
+        self.options.tube_radius = Some(radius * self.cut.unit);
         self.options.max_steps = MOST_TUBES;
         self.looked_at = looked_at.to_vec();
         self.together = self.bound_together();
-        let again = self.follow(rights, control);
+        let again = self.follow_with_places(rights, control);
         self.looked_at.clear();
         (self.options, self.ready, self.together) = (options, ready, together);
         again
@@ -100,9 +100,13 @@ impl Parts {
         end: f64,
         rights: &[Vec<Real>],
     ) -> (Verdict, Option<((f64, f64), Stop)>) {
-        let unit = point(self.scale(self.system.rows[self.redundant[redundant]].index));
+        let unit = point(self.scale(self.cut.left_out(redundant).index));
         let right = self.right_until(redundant, end, rights);
-        let verdict = |off: Interval| self.ruler(redundant).verdict(off * unit, right * unit);
+        let verdict = |off: Interval| {
+            self.cut
+                .ruler(redundant, self.options.redundant_tolerance)
+                .verdict(off * unit, right * unit)
+        };
         let until = off.until().map(verdict);
         let undecided = Verdict::Undecided {
             at_most: f64::INFINITY,
@@ -110,7 +114,7 @@ impl Parts {
         match off.missed.map(|(missed, t)| (verdict(missed), t)) {
             None => (until.unwrap_or(undecided), None),
             Some((Verdict::Missed { by }, t)) => {
-                let name = self.name(self.system.rows[self.redundant[redundant]].index);
+                let name = self.cut.name_left_out(redundant);
                 let words = format!(
                     "there figures that meet the other constraints miss {name} by at least {}, proved",
                     rounded_down(by)
@@ -126,22 +130,27 @@ impl Parts {
 
     /// The right-hand side of what was left out for t up to `end`, in the homotopy's unit.
     fn right_until(&self, redundant: usize, end: f64, rights: &[Vec<Real>]) -> Interval {
-        let index = self.system.rows[self.redundant[redundant]].index;
+        let index = self.cut.left_out(redundant).index;
         Right::polynomial(&rights[index], self.scale(index)).enclose(hull(0.0, end.max(0.0)))
     }
 
     /// How far the sides of what was left out may be apart, in the homotopy's unit.
     pub(super) fn within(&self, redundant: usize, rights: &[Vec<Real>]) -> [f64; 2] {
-        let unit = self.scale(self.system.rows[self.redundant[redundant]].index);
+        let unit = self.scale(self.cut.left_out(redundant).index);
         let right = self.right_until(redundant, 1.0, rights);
         // A power of two.
-        let within = self.ruler(redundant).within(right * point(unit));
+        let within = self
+            .cut
+            .ruler(redundant, self.options.redundant_tolerance)
+            .within(right * point(unit));
         within.map(|off| off / unit)
     }
 
     /// The unknowns in what was left out.
     pub(super) fn unknowns_of(&self, redundant: usize) -> impl Iterator<Item = usize> + '_ {
-        let products = self.system.rows[self.redundant[redundant]].products.iter();
+        let products = self.cut.system.rows[self.cut.redundant[redundant]]
+            .products
+            .iter();
         let forms = products.flat_map(|product| product.forms());
         forms.flat_map(Form::entries).filter_map(|(entry, _)| entry)
     }

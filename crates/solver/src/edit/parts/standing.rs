@@ -12,16 +12,16 @@ impl Parts {
     /// Leads the sketch to its dimensions, as edits begin, and looks at what was left out. `rights`: see [`Parts::assemble`].
     pub fn standing(&mut self, rights: &[Vec<Real>], control: &mut Control) -> Standing {
         let at_rest = at_rest_all(rights);
-        let count = self.redundant.len();
+        let count = self.cut.redundant.len();
         let contradicts = (0..count).find(|&k| self.is_contradiction(k, &at_rest));
+        let contradict = |parts: &Self, k: usize, is_proved: bool| TooMany::Contradict {
+            name: parts.cut.name_left_out(k),
+            is_proved,
+        };
         if let Some(k) = contradicts {
-            let name = self.name(self.system.rows[self.redundant[k]].index);
             return Standing {
                 is_taken: false,
-                too_many: TooMany::Contradict {
-                    name,
-                    is_proved: true,
-                },
+                too_many: contradict(self, k, true),
             };
         }
         let all_proved = self.proved.iter().all(|&proved| proved);
@@ -39,11 +39,8 @@ impl Parts {
         let too_many = match broken {
             _ if count == 0 => TooMany::None,
             // At a singular drawing what is left out need not be what is one too many.
-            Some(_) if self.singular.is_some() => TooMany::Undecided,
-            Some(k) => TooMany::Contradict {
-                name: self.name(self.system.rows[self.redundant[k]].index),
-                is_proved: false,
-            },
+            Some(_) if self.cut.singular.is_some() => TooMany::Undecided,
+            Some(k) => contradict(self, k, false),
             None if all_proved => TooMany::Follow,
             None => TooMany::Undecided,
         };
@@ -56,12 +53,12 @@ impl Parts {
         let Some(Some(how)) = self.follows.get(redundant) else {
             return false;
         };
-        let is_held = |i: &usize| matches!(self.used[*i], Used::Held(_));
+        let is_held = |i: &usize| matches!(self.cut.used[*i], Used::Held(_));
         if how.sum.iter().map(|(i, _)| i).chain(&how.kept).any(is_held) {
             return false;
         }
-        let row = &self.system.rows[self.redundant[redundant]];
-        let of = |i: usize| self.rights_of(self.used[i], rights);
+        let row = self.cut.left_out(redundant);
+        let of = |i: usize| self.rights_of(self.cut.used[i], rights);
         how.fails(&rights[row.index], of, |k| self.given[k].constant())
     }
 }

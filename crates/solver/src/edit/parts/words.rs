@@ -2,7 +2,7 @@
 
 use super::Parts;
 use super::contacts::Kept;
-use crate::blocks::{Account, Block, Verdict, account, name};
+use crate::blocks::{Account, Verdict};
 use crate::constraint::KINDS;
 use crate::edit::session::Decomposition;
 use crate::interval::point;
@@ -13,15 +13,10 @@ use std::collections::BTreeSet;
 impl Parts {
     /// What a claim is proved of, with what is known of each row that was left out, by place.
     pub(super) fn account_of(&self, verdict: impl Fn(usize) -> Verdict) -> Account {
-        let value = |u: usize| {
-            self.figure[u].enclosure() * point(self.unit.powi(self.system.unknowns[u].power))
-        };
-        let left_out = self.redundant.iter().enumerate();
-        let left_out =
-            left_out.map(|(k, &row)| (self.name(self.system.rows[row].index), verdict(k)));
+        let value = |u: usize| self.figure.enclosure(u) * point(self.cut.unit_of(u));
         Account {
             added: self.contacts.iter().map(Kept::equation).collect(),
-            ..account(&self.used, &self.system, value, left_out)
+            ..self.cut.account(value, verdict)
         }
     }
 
@@ -37,38 +32,33 @@ impl Parts {
 
     /// How the equations fall apart.
     pub fn decomposition(&self) -> Decomposition {
-        let blocks = self.blocks.blocks.iter().zip(&self.is_exact);
-        let names = |block: &Block| {
-            let unknowns = block.unknowns.iter();
-            unknowns
-                .map(|&u| self.system.unknowns[u].name.clone())
-                .collect()
-        };
+        let blocks = self.cut.blocks.blocks.iter().zip(&self.cut.is_exact);
         Decomposition {
-            merged: self.system.merged,
-            unknowns: self.system.unknowns.len(),
+            merged: self.cut.system.merged,
+            unknowns: self.cut.system.unknowns.len(),
             blocks: blocks
                 .filter(|(_, exact)| !**exact)
-                .map(|(block, _)| names(block))
+                .map(|(block, _)| self.cut.unknowns_of(block))
                 .collect(),
             account: self.account_of(|k| match self.proved[k] {
                 true => Verdict::Follows,
                 false => Verdict::NotLookedAt,
             }),
-            singular: self.singular.clone(),
+            singular: self.cut.singular.clone(),
         }
     }
 
     /// The sketch as a problem with as many equations as unknowns: what nothing determines is held by constraints on its
     /// coordinates, and what follows from others at the figure is left out. It bends by default.
     pub fn completed(&self) -> Result<Problem, String> {
-        let mut problem = self.problem.clone();
+        let mut problem = self.cut.problem.clone();
         let (objects, all) = (problem.objects.len(), problem.constraints.len());
         let head = problem.distances.len();
         let out: BTreeSet<usize> = self
+            .cut
             .redundant
             .iter()
-            .filter_map(|&row| match self.owners[self.system.rows[row].index] {
+            .filter_map(|&row| match self.cut.owner(row) {
                 owner if owner < objects => None,
                 owner if owner < objects + all => Some(head + owner - objects),
                 owner => Some(owner - objects - all - 1),
@@ -87,9 +77,9 @@ impl Parts {
             .map(|(c, constraint)| (constraint, label(head + c)))
             .collect();
         let d = problem.dimension;
-        for &u in &self.free {
-            let place = self.system.coordinates.iter().position(|&c| c == u);
-            let round = self.numbers.iter().position(|&r| r == Some(u));
+        for &u in &self.cut.free {
+            let place = self.cut.system.coordinates.iter().position(|&c| c == u);
+            let round = self.cut.numbers.iter().position(|&r| r == Some(u));
             let (kind, item, value) = match (place, round) {
                 (Some(place), _) => {
                     let (p, axis) = (place / d, place % d);
@@ -101,7 +91,7 @@ impl Parts {
                     Shape::Number { sketch } => ("values", Item::Object(o), sketch.clone()),
                     _ => unreachable!("only circles and numbers have a number of their own"),
                 },
-                _ => return Err(format!("{} is free", self.system.unknowns[u].name)),
+                _ => return Err(format!("{} is free", self.cut.system.unknowns[u].name)),
             };
             let held = Constraint {
                 kind: kind.to_owned(),
@@ -126,10 +116,5 @@ impl Parts {
         problem.bend_by_default();
         problem.check().map_err(|error| error.to_string())?;
         Ok(problem)
-    }
-
-    /// What people call the source of one of the problem's equations.
-    pub(super) fn name(&self, equation: usize) -> String {
-        name(&self.problem, self.owners[equation])
     }
 }

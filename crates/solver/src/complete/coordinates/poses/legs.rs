@@ -106,7 +106,7 @@ impl Legs {
                 .each_ref()
                 .each(|row| weighted(&Model::ZERO, [(x, &row[0]), (y, &row[1]), (z, &row[2])]));
             for k in 0..3 {
-                a[i][k] = weighted(&held[k], [(negative(leg.stands[k]), &square)]);
+                a[i][k] = weighted(&held[k], [(leg.stands[k].negative(), &square)]);
             }
             let [u, v, w] = leg.stands;
             b[i] = weighted(
@@ -158,7 +158,7 @@ impl Legs {
         let mut off: [[Model<S, M>; K]; K] = [[Model::ZERO; K]; K];
         for (j, row) in off.iter_mut().enumerate() {
             for (k, entry) in row.iter_mut().enumerate() {
-                let start = if j == k { MINUS_ONE } else { ZERO };
+                let start = Number::exact(if j == k { -1.0 } else { 0.0 });
                 let column = told.each_ref().each(|row| &row[k]);
                 *entry = combination(Model::constant(start), &bases.inverse[j], column);
             }
@@ -236,7 +236,7 @@ impl Legs {
         }
         let squares = look.place.each_ref().each(Model::squared);
         let sum = squares[0].plus(&squares[1]).plus(&squares[2]);
-        look.equations.push(sum.shifted(negative(self.square)));
+        look.equations.push(sum.shifted(self.square.negative()));
         // What is not linear in an equation, beside what is, and how the matrix changes.
         for equation in &look.equations {
             let linear = equation.linear().max(UNDERFLOW);
@@ -289,22 +289,6 @@ impl Legs {
 
 /// Where ‖E‖ is more, the place is not eliminated.
 const LIMIT: f64 = 0.7;
-const ZERO: Number = Number { mid: 0.0, rad: 0.0 };
-const MINUS_ONE: Number = Number {
-    mid: -1.0,
-    rad: 0.0,
-};
-
-fn float(x: f64) -> Number {
-    Number { mid: x, rad: 0.0 }
-}
-
-fn negative(x: Number) -> Number {
-    Number {
-        mid: -x.mid,
-        rad: x.rad,
-    }
-}
 
 /// The model's polynomial, exactly.
 fn polynomial<const S: usize, const M: usize>(model: Model<S, M>) -> Model<S, M> {
@@ -320,7 +304,7 @@ fn combination<const S: usize, const M: usize>(
     let mut i = 0;
     let terms = f.each(|f| {
         i += 1;
-        (float(row[i - 1]), f)
+        (Number::exact(row[i - 1]), f)
     });
     weighted(&start, terms)
 }
@@ -343,7 +327,7 @@ fn turned<const S: usize, const M: usize>(part: &Part) -> ([[Model<S, M>; 3]; 3]
     let mut next = 0;
     let q: [Model<S, M>; 4] = array(|i| {
         if i == part.chart {
-            return Model::constant(float(1.0));
+            return Model::constant(Number::exact(1.0));
         }
         next += 1;
         part.symbol(next - 1)
@@ -351,7 +335,7 @@ fn turned<const S: usize, const M: usize>(part: &Part) -> ([[Model<S, M>; 3]; 3]
     let of = |i: usize, j: usize| q[i].times(&q[j]);
     let squares: [Model<S, M>; 4] = array(|i| q[i].squared());
     let diagonal = |k: usize| {
-        let sign = |i: usize| float(if i == k { 1.0 } else { -1.0 });
+        let sign = |i: usize| Number::exact(if i == k { 1.0 } else { -1.0 });
         let others = [1, 2, 3].each(|i| (sign(i), &squares[i]));
         weighted(&squares[0], others)
     };
@@ -360,7 +344,10 @@ fn turned<const S: usize, const M: usize>(part: &Part) -> ([[Model<S, M>; 3]; 3]
         let (ij, zero_k) = (of(i, j), of(0, k));
         weighted(
             &Model::ZERO,
-            [(float(2.0), &ij), (float(2.0 * sign), &zero_k)],
+            [
+                (Number::exact(2.0), &ij),
+                (Number::exact(2.0 * sign), &zero_k),
+            ],
         )
     };
     let matrix = [
@@ -368,7 +355,7 @@ fn turned<const S: usize, const M: usize>(part: &Part) -> ([[Model<S, M>; 3]; 3]
         [side(1, 2, 1.0, 3), diagonal(2), side(2, 3, -1.0, 1)],
         [side(1, 3, -1.0, 2), side(2, 3, 1.0, 1), diagonal(3)],
     ];
-    let one = float(1.0);
+    let one = Number::exact(1.0);
     let others = [1, 2, 3].each(|i| (one, &squares[i]));
     (matrix, weighted(&squares[0], others))
 }

@@ -18,7 +18,7 @@ mod part;
 
 use super::contract::contract;
 use super::newton::Zero;
-use super::search::{Block, Found, Run, SMALL, add, leave};
+use super::search::{Block, Found, Run, SMALL, add};
 use super::tally::Tally;
 use crate::blocks::Block as Cut;
 use crate::certificate::cover::coordinates::Body;
@@ -201,15 +201,11 @@ impl Poses {
             })
             .collect();
         let mut whole = first.tally.found;
-        for piece in pieces {
-            for zero in piece.zeros {
+        for mut piece in pieces {
+            for zero in piece.zeros.drain(..) {
                 add(&mut whole.zeros, zero);
             }
-            for part in piece.undecided {
-                leave(&mut whole.undecided, part.why, part.count, part.share);
-            }
-            whole.boxes += piece.boxes;
-            whole.is_broken_off |= piece.is_broken_off;
+            whole.append(piece);
         }
         whole.zeros.order_by(Zero::order);
         whole.pieces = vec![None; whole.zeros.len()];
