@@ -80,7 +80,7 @@ fn figures_meet_their_distances_in_all_digits() {
         }
     }
     let why = to_digits(&seen, &beside, &[], 45).unwrap_err();
-    assert!(why.contains("not within"), "{why}");
+    assert!(why.contains("not proved"), "{why}");
 }
 
 /// Near a double root digits are told as long as it is proved, and otherwise nothing is.

@@ -7,11 +7,11 @@
 //! ```
 //! use krawl::digits::to_digits;
 //! use krawl::problem::Problem;
-//! use krawl::track::{Options, prove};
+//! use krawl::track::prove;
 //!
 //! let text = "name = \"root\"\ndimension = 2\n[unknowns]\nx = 1\n[constraints]\nequations = [\"x^2 = 2\"]\n";
 //! let problem = Problem::parse(text, "root.toml")?;
-//! let run = prove(&problem, &Options::certified())?;
+//! let run = prove(&problem)?;
 //! let positive = run.solutions.iter().find(|s| s.objects[0].number().unwrap().inf() > 0.0).unwrap();
 //! let found = to_digits(&problem, &positive.points, &positive.objects, 40)?;
 //! assert_eq!(found.numbers[0], ("x".to_owned(), "1.414213562373095048801688724209698078570".to_owned()));
