@@ -425,7 +425,7 @@ impl<'a, const D: usize, const S: usize, const M: usize> Visit<'a, D, S, M> {
                 _ => {}
             }
         }
-        let weights = movers_of(self.room.points.iter().flatten());
+        let weights = movers(self.room.points.iter().flatten());
         self.part(step, true, weights);
     }
 
@@ -465,12 +465,8 @@ impl<'a, const D: usize, const S: usize, const M: usize> Visit<'a, D, S, M> {
 }
 
 /// How much each symbol bends these functions, and a little of how much it moves them.
-fn movers<const S: usize, const M: usize>(models: &[Model<S, M>]) -> [f64; S] {
-    movers_of(models.iter())
-}
-
-fn movers_of<'m, const S: usize, const M: usize>(
-    models: impl Iterator<Item = &'m Model<S, M>>,
+fn movers<'m, const S: usize, const M: usize>(
+    models: impl IntoIterator<Item = &'m Model<S, M>>,
 ) -> [f64; S] {
     let mut weights = [0.0; S];
     for model in models {
