@@ -57,14 +57,6 @@ pub struct Leaf {
     pub is_whole: bool,
 }
 
-/// What came of a part.
-pub enum Walked {
-    /// Every zero in it is in one of these.
-    Leaves(Vec<Leaf>),
-    /// More variables are needed.
-    MoreSymbols,
-}
-
 /// Why a way ends.
 enum Stop<const S: usize> {
     /// It has no zero.
@@ -98,8 +90,9 @@ struct Roots<const S: usize, const M: usize> {
     half: Model<S, M>,
 }
 
-/// Constructs the unknowns of a block in a part in which they are bounded, with so many variables. `rows`: the block's equations.
-pub fn walk(symbols: usize, order: &Order, rows: &[&Row], x: &[Interval]) -> Walked {
+/// Constructs the unknowns of a block in a part in which they are bounded, with so many variables: every zero in it is in one
+/// of these leaves. `None`: more variables are needed. `rows`: the block's equations.
+pub fn walk(symbols: usize, order: &Order, rows: &[&Row], x: &[Interval]) -> Option<Vec<Leaf>> {
     match symbols {
         0 => Walk::<0, 1>::run(order, rows, x),
         1 => Walk::<1, 3>::run(order, rows, x),
@@ -137,7 +130,7 @@ struct Walk<'a, const S: usize, const M: usize> {
 const ONE: Number = Number { mid: 1.0, rad: 0.0 };
 
 impl<'a, const S: usize, const M: usize> Walk<'a, S, M> {
-    fn run(order: &'a Order, rows: &'a [&'a Row], x: &'a [Interval]) -> Walked {
+    fn run(order: &'a Order, rows: &'a [&'a Row], x: &'a [Interval]) -> Option<Vec<Leaf>> {
         let mut f = vec![Model::<S, M>::ZERO; x.len()];
         for &entry in &order.outside {
             f[entry] = Model::constant(Number::new(x[entry]));
@@ -156,13 +149,13 @@ impl<'a, const S: usize, const M: usize> Walk<'a, S, M> {
             is_overfull: false,
         };
         match walk.go(0) {
-            Err(Stop::MoreSymbols) => Walked::MoreSymbols,
-            _ if walk.is_overfull => Walked::Leaves(vec![Leaf {
+            Err(Stop::MoreSymbols) => None,
+            _ if walk.is_overfull => Some(vec![Leaf {
                 x: x.to_vec(),
                 halve: None,
                 is_whole: false,
             }]),
-            _ => Walked::Leaves(walk.leaves),
+            _ => Some(walk.leaves),
         }
     }
 
