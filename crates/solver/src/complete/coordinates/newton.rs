@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 use std::cmp::Ordering;
 
 /// A block: as many equations as unknowns, all other entries being known.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Square<'a> {
     /// The equations.
     pub rows: Vec<&'a Row>,

@@ -83,6 +83,7 @@ const NONE: f64 = 1e-6;
 const HUGE: f64 = (1u64 << 40) as f64;
 
 /// A block and how it is contracted.
+#[derive(Clone)]
 pub struct Block<'a> {
     /// The equations with the unknowns.
     pub square: Square<'a>,
