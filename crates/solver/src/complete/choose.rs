@@ -219,16 +219,13 @@ impl<'a> Draft<'a> {
     fn centres(&self, standing: &[usize]) -> Vec<usize> {
         let joined = |a: usize, b: usize| self.targets.edge(a, b).is_some() as u32;
         if self.targets.dimension == 2 {
-            let mut best = (0, Vec::new());
-            for (i, &a) in standing.iter().enumerate() {
-                for &b in &standing[..i] {
-                    let cost = 1 + self.depth[a] + self.depth[b] + 2 * (1 - joined(a, b));
-                    if best.1.is_empty() || cost < best.0 {
-                        best = (cost, vec![b, a]);
-                    }
-                }
-            }
-            return best.1;
+            let cost =
+                |&[a, b]: &[usize; 2]| 1 + self.depth[a] + self.depth[b] + 2 * (1 - joined(a, b));
+            let all = standing.iter().enumerate();
+            let pairs = all.flat_map(|(i, &a)| standing[..i].iter().map(move |&b| [a, b]));
+            return pairs
+                .min_by_key(cost)
+                .map_or(Vec::new(), |[a, b]| vec![b, a]);
         }
         let mut best = (0, Vec::new());
         for (i, &a) in standing.iter().enumerate() {
