@@ -255,8 +255,8 @@ impl<'s, 'a> Piece<'s, 'a> {
     fn together(&mut self, x: &mut [Interval]) -> Result<bool, Empty> {
         let square = &self.block.square;
         let before = self.block.volume(x);
-        let step = square.step(x)?;
-        if step.defect < 2.0 && self.tally.prove(square, x) {
+        let defect = square.step(x)?;
+        if defect < 2.0 && self.tally.prove(square, x) {
             return Err(Empty);
         }
         Ok(self.block.volume(x) <= before - WORTH)

@@ -84,11 +84,8 @@ struct Along<const S: usize, const M: usize> {
     b: Vec<Model<S, M>>,
 }
 
-/// An unknown at middle ± half.
-struct Roots<const S: usize, const M: usize> {
-    middle: Model<S, M>,
-    half: Model<S, M>,
-}
+/// An unknown at the first of these, plus or minus the second.
+type Roots<const S: usize, const M: usize> = [Model<S, M>; 2];
 
 /// Constructs the unknowns of a block in a part in which they are bounded, with so many variables: every zero in it is in one
 /// of these leaves. `None`: more variables are needed. `rows`: the block's equations.
@@ -244,7 +241,7 @@ impl<'a, const S: usize, const M: usize> Walk<'a, S, M> {
             return self.found(step, &along.a, &used);
         };
         along.b[z] = Model::constant(ONE);
-        let Some(roots) = self.roots((now, z), quadric, &along)? else {
+        let Some([middle, half]) = self.roots((now, z), quadric, &along)? else {
             // Its equation is one that closes.
             let y = self.symbol(now.unknowns[z])?.minus(&self.f[now.base[z]]);
             return self.found(step, &along.with(&y), &used);
@@ -252,7 +249,7 @@ impl<'a, const S: usize, const M: usize> Walk<'a, S, M> {
         used.push(quadric.0.row);
         let before = self.mark();
         for sign in [1.0, -1.0] {
-            let x = roots.middle.plus(&roots.half.scaled(sign));
+            let x = middle.plus(&half.scaled(sign));
             if meets(x.range(), self.x[now.unknowns[z]]) {
                 let y = x.minus(&self.f[now.base[z]]);
                 let result = self.found(step, &along.with(&y), &used);
@@ -417,10 +414,9 @@ impl<'a, const S: usize, const M: usize> Walk<'a, S, M> {
             };
         }
         let over = first.reciprocal(range);
-        Ok(Some(Roots {
-            middle: self.f[now.base[z]].minus(&second.times(&over)),
-            half: radicand.square_root(height).times(&over),
-        }))
+        let middle = self.f[now.base[z]].minus(&second.times(&over));
+        let half = radicand.square_root(height).times(&over);
+        Ok(Some([middle, half]))
     }
 
     /// The unknowns of a step stand: looks at what that means for the equations, and goes on.
