@@ -78,6 +78,15 @@ const FOLD: f64 = 0.35;
 const SHRUNK: f64 = 0.3;
 
 impl Found {
+    /// Nothing was found so far; with the cover, if it is wanted.
+    pub fn begun(cover: bool) -> Self {
+        let mut found = Found::default();
+        if cover {
+            found.marks = Marks::wanted();
+        }
+        found
+    }
+
     /// Notes a part that stays undecided.
     pub fn leave(&mut self, share: f64, why: Why) {
         self.marks.put(Mark::Undecided, 0);
@@ -483,10 +492,7 @@ mod tests {
     #[test]
     fn what_is_undecided_stays_so_beside_what_is_done() {
         let part = |undecided: bool| {
-            let mut found = Found {
-                marks: Marks::wanted(),
-                ..Found::default()
-            };
+            let mut found = Found::begun(true);
             if undecided {
                 found.leave(0.5, Why::Unfinished);
             } else {
