@@ -305,16 +305,18 @@ fn is_zero(count: &usize) -> bool {
     *count == 0
 }
 
-/// `a, b and c`, or `a, b and 7 more`.
 fn list(names: &[String]) -> String {
+    list_of(names, LISTED)
+}
+
+/// `a, b and c`, or, of more than so many, `a, b and 7 more`.
+pub(crate) fn list_of(names: &[String], most: usize) -> String {
     match names {
         [] => String::new(),
         [one] => one.clone(),
-        _ if names.len() > LISTED => format!(
-            "{} and {} more",
-            names[..LISTED].join(", "),
-            names.len() - LISTED
-        ),
+        all if all.len() > most => {
+            format!("{} and {} more", all[..most].join(", "), all.len() - most)
+        }
         [first @ .., last] => format!("{} and {last}", first.join(", ")),
     }
 }

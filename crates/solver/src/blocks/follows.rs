@@ -61,6 +61,11 @@ impl Given {
             constant: at.as_rational().cloned(),
         }
     }
+
+    /// Its right-hand side, if it may be multiplied by unknowns.
+    pub fn constant(&self) -> Option<&Rational> {
+        self.constant.as_ref()
+    }
 }
 
 /// The value of a right-hand side that is a constant ratio.
@@ -278,13 +283,6 @@ fn is_zero<'r>(terms: impl Iterator<Item = (&'r Rational, &'r Real)>) -> bool {
         }
     }
     ratio.is_zero() && others.iter().all(|(_, sum)| sum.is_zero())
-}
-
-impl Given {
-    /// Its right-hand side, if it may be multiplied by unknowns.
-    pub fn constant(&self) -> Option<&Rational> {
-        self.constant.as_ref()
-    }
 }
 
 #[cfg(test)]

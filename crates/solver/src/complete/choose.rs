@@ -4,6 +4,7 @@
 //! number. Among those it still differs by orders of magnitude (the deeper points hang on one another,
 //! and the later distances close, the more), so that samples decide.
 
+use super::Unserved;
 use super::pairs::Pairs;
 use super::plan::{Drive, HingeNumbers, Kind, Plan, Radius, Step, base_coordinates};
 use super::targets::Targets;
@@ -15,25 +16,17 @@ pub const MOST_PARAMETERS: usize = 4;
 const MOST_PLANS: usize = 4000;
 const MOST_CHOICES: usize = 60_000;
 
-/// Why there is no plan.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum NoPlan {
-    /// No two joined points, or no three mutually joined points in space that are surely not in line.
-    NoBase,
-    /// All plans need more parameters than can be searched.
-    TooManyParameters,
-}
-
-/// Plans with the fewest parameters, the most promising ones first.
-pub fn plans(targets: &Targets, pairs: &Pairs) -> Result<Vec<Plan>, NoPlan> {
+/// Plans with the fewest parameters, the most promising ones first. An error: there is no base (no two joined points, or no three mutually joined
+/// points in space that are surely not in line), or all plans need more parameters than can be searched.
+pub fn plans(targets: &Targets, pairs: &Pairs) -> Result<Vec<Plan>, Unserved> {
     plans_within(targets, pairs, MOST_PARAMETERS)
 }
 
 /// The same, with no more than so many parameters.
-pub fn plans_within(targets: &Targets, pairs: &Pairs, most: usize) -> Result<Vec<Plan>, NoPlan> {
+pub fn plans_within(targets: &Targets, pairs: &Pairs, most: usize) -> Result<Vec<Plan>, Unserved> {
     let bases = bases(targets);
     if bases.is_empty() {
-        return Err(NoPlan::NoBase);
+        return Err(Unserved::NoBase);
     }
     for parameters in 0..=most {
         let mut draft = Draft::new(targets, pairs);
@@ -47,7 +40,7 @@ pub fn plans_within(targets: &Targets, pairs: &Pairs, most: usize) -> Result<Vec
             return Ok(plans.into_iter().map(|(_, plan)| plan).collect());
         }
     }
-    Err(NoPlan::TooManyParameters)
+    Err(Unserved::TooManyParameters)
 }
 
 fn bases(targets: &Targets) -> Vec<Vec<usize>> {
@@ -226,16 +219,13 @@ impl<'a> Draft<'a> {
     fn centres(&self, standing: &[usize]) -> Vec<usize> {
         let joined = |a: usize, b: usize| self.targets.edge(a, b).is_some() as u32;
         if self.targets.dimension == 2 {
-            let mut best = (0, Vec::new());
-            for (i, &a) in standing.iter().enumerate() {
-                for &b in &standing[..i] {
-                    let cost = 1 + self.depth[a] + self.depth[b] + 2 * (1 - joined(a, b));
-                    if best.1.is_empty() || cost < best.0 {
-                        best = (cost, vec![b, a]);
-                    }
-                }
-            }
-            return best.1;
+            let cost =
+                |&[a, b]: &[usize; 2]| 1 + self.depth[a] + self.depth[b] + 2 * (1 - joined(a, b));
+            let all = standing.iter().enumerate();
+            let pairs = all.flat_map(|(i, &a)| standing[..i].iter().map(move |&b| [a, b]));
+            return pairs
+                .min_by_key(cost)
+                .map_or(Vec::new(), |[a, b]| vec![b, a]);
         }
         let mut best = (0, Vec::new());
         for (i, &a) in standing.iter().enumerate() {

@@ -121,32 +121,20 @@ fn largest(u: Range) -> f64 {
 }
 
 fn times(g: f64, u: Range) -> Range {
-    if g >= 0.0 {
-        Range {
-            lo: g * u.lo,
-            hi: g * u.hi,
-        }
-    } else {
-        Range {
-            lo: g * u.hi,
-            hi: g * u.lo,
-        }
+    let (lo, hi) = if g >= 0.0 { (u.lo, u.hi) } else { (u.hi, u.lo) };
+    Range {
+        lo: g * lo,
+        hi: g * hi,
     }
 }
 
 /// h u².
 fn square(h: f64, u: Range) -> Range {
-    let greatest = largest(u) * largest(u);
-    let least = if u.lo > 0.0 || u.hi < 0.0 {
+    let hi = largest(u) * largest(u);
+    let lo = if u.lo > 0.0 || u.hi < 0.0 {
         u.lo.abs().min(u.hi.abs()).powi(2)
     } else {
         0.0
     };
-    times(
-        h,
-        Range {
-            lo: least,
-            hi: greatest,
-        },
-    )
+    times(h, Range { lo, hi })
 }

@@ -136,7 +136,7 @@ fn by_plan(
         // A reason in words needs no search, but a cover does.
         (Ok(plans), Some(_)) if options.cover => plans,
         (_, Some(reason)) => return Ok(Complete::empty(problem, reason.clone(), begin)),
-        (Err(reason), None) => return Err(reason.into()),
+        (Err(reason), None) => return Err(reason),
     };
     let stop = AtomicBool::new(false);
     let run = Run::new(&stop, options, options.cover);

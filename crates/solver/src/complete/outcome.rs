@@ -1,6 +1,5 @@
 //! What the search for all solutions reports.
 
-use super::choose::NoPlan;
 use super::coordinates::leave;
 use super::exact::{Nearly, Step};
 use super::parts::Searched;
@@ -22,7 +21,7 @@ use std::thread::Thread;
 use std::time::{Duration, Instant};
 
 /// What is proved of the solutions listed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Status {
     /// They are all.
     Complete,
@@ -210,15 +209,6 @@ impl Method {
             Method::Plan => "plan",
             Method::Coordinates => "coordinates",
             Method::Blocks => "blocks",
-        }
-    }
-}
-
-impl From<NoPlan> for Unserved {
-    fn from(reason: NoPlan) -> Self {
-        match reason {
-            NoPlan::NoBase => Unserved::NoBase,
-            NoPlan::TooManyParameters => Unserved::TooManyParameters,
         }
     }
 }

@@ -117,12 +117,8 @@ fn put_together(
         }
     }
     undecided.order_by_key(|part| part.why);
-    let worst = |status| parts.iter().any(|part| part.result.status == status);
-    whole.status = match () {
-        () if worst(Status::Flexible) => Status::Flexible,
-        () if worst(Status::Partial) => Status::Partial,
-        () => Status::Complete,
-    };
+    let worst = parts.iter().map(|part| part.result.status).max();
+    whole.status = worst.unwrap_or(Status::Complete);
     whole.undecided = undecided;
     // A part without any figure is enough.
     let none = |part: &&Searched| {

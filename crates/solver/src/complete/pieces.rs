@@ -3,7 +3,6 @@
 //! The cut is always the same: parts are parted, the one made longest ago first, until there are so many. What was
 //! found is put together in the order of the search, so that the answer and the cover are those of one run.
 
-use super::cover::Marks;
 use super::node::Node;
 use super::search::{Run, Search};
 use super::store::{Keep, Piece, Store};
@@ -97,10 +96,7 @@ impl Outline {
                 Some(Entry::Piece(node)) => {
                     let found = found_in(piece_of[which]);
                     parts.push(found.unwrap_or_else(|| {
-                        let mut open = Found::default();
-                        if cover {
-                            open.marks = Marks::wanted();
-                        }
+                        let mut open = Found::begun(cover);
                         open.leave(node.share, Why::Unfinished);
                         open
                     }));

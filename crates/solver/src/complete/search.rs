@@ -1,7 +1,6 @@
 //! The search: depth first, its parts on all threads, the answer the same for any number of them.
 
 use super::Options;
-use super::cover::Marks;
 use super::krawczyk::{Figure, Prover};
 use super::model::Number;
 use super::node::{MAX_SIGNED, MAX_SYMBOLS, Node};
@@ -165,10 +164,7 @@ impl Search {
     }
 
     fn descend(&self, run: &Run, node: Node, depth: usize) -> Found {
-        let mut found = Found::default();
-        if run.cover {
-            found.marks = Marks::wanted();
-        }
+        let mut found = Found::begun(run.cover);
         if depth >= TASK_DEPTH || rayon::current_num_threads() == 1 {
             self.subtree(run, node, &mut found);
             return found;
@@ -213,10 +209,7 @@ impl Search {
 
     /// One part, and those that it is parted into.
     pub fn one(&self, run: &Run, node: Node) -> (Found, Vec<Node>) {
-        let (mut found, mut children) = (Found::default(), Vec::new());
-        if run.cover {
-            found.marks = Marks::wanted();
-        }
+        let (mut found, mut children) = (Found::begun(run.cover), Vec::new());
         self.look_at(node, run, &mut Rooms::default(), &mut found, &mut children);
         run.boxes.fetch_add(1, Ordering::Relaxed);
         (found, children)

@@ -78,6 +78,15 @@ const FOLD: f64 = 0.35;
 const SHRUNK: f64 = 0.3;
 
 impl Found {
+    /// Nothing was found so far; with the cover, if it is wanted.
+    pub fn begun(cover: bool) -> Self {
+        let mut found = Found::default();
+        if cover {
+            found.marks = Marks::wanted();
+        }
+        found
+    }
+
     /// Notes a part that stays undecided.
     pub fn leave(&mut self, share: f64, why: Why) {
         self.marks.put(Mark::Undecided, 0);
@@ -425,7 +434,7 @@ impl<'a, const D: usize, const S: usize, const M: usize> Visit<'a, D, S, M> {
                 _ => {}
             }
         }
-        let weights = movers_of(self.room.points.iter().flatten());
+        let weights = movers(self.room.points.iter().flatten());
         self.part(step, true, weights);
     }
 
@@ -465,12 +474,8 @@ impl<'a, const D: usize, const S: usize, const M: usize> Visit<'a, D, S, M> {
 }
 
 /// How much each symbol bends these functions, and a little of how much it moves them.
-fn movers<const S: usize, const M: usize>(models: &[Model<S, M>]) -> [f64; S] {
-    movers_of(models.iter())
-}
-
-fn movers_of<'m, const S: usize, const M: usize>(
-    models: impl Iterator<Item = &'m Model<S, M>>,
+fn movers<'m, const S: usize, const M: usize>(
+    models: impl IntoIterator<Item = &'m Model<S, M>>,
 ) -> [f64; S] {
     let mut weights = [0.0; S];
     for model in models {
@@ -487,10 +492,7 @@ mod tests {
     #[test]
     fn what_is_undecided_stays_so_beside_what_is_done() {
         let part = |undecided: bool| {
-            let mut found = Found {
-                marks: Marks::wanted(),
-                ..Found::default()
-            };
+            let mut found = Found::begun(true);
             if undecided {
                 found.leave(0.5, Why::Unfinished);
             } else {

@@ -81,24 +81,21 @@ pub fn bound(dimension: usize, points: usize, edges: &[[usize; 2]]) -> Option<Bo
         .filter_map(|fixed| Some((bezout(dimension, points, edges, &fixed)?, fixed)))
         .min_by_key(|(count, _)| *count)?;
     let (count, fixed) = bezout;
-    if dimension == 2
-        && edges.len() <= laman::MAX_EDGES
-        && let Some(number) = laman::number(edges)
-        && number <= count
-    {
-        return Some(Bound {
-            is_cited: false,
-            count: number,
-            source: "the number of realisations of a minimally rigid graph in the plane (Capco et al. 2018)"
-                .to_owned(),
-            fixed,
-        });
-    }
+    let number = (dimension == 2).then(|| laman::number(edges)).flatten();
+    let (count, source) = match number.filter(|number| *number <= count) {
+        Some(number) => (
+            number,
+            "the number of realisations of a minimally rigid graph in the plane (Capco et al. 2018)",
+        ),
+        None => (
+            count,
+            "the multi-homogeneous Bézout bound of the graph (Bartzos, Emiris, Schicho 2020)",
+        ),
+    };
     Some(Bound {
-        is_cited: false,
         count,
-        source: "the multi-homogeneous Bézout bound of the graph (Bartzos, Emiris, Schicho 2020)"
-            .to_owned(),
+        source: source.to_owned(),
+        is_cited: false,
         fixed,
     })
 }

@@ -17,7 +17,7 @@ use crate::places::array;
 use std::collections::HashMap;
 
 /// Larger graphs take too long: the sum has two to this many terms.
-pub const MAX_EDGES: usize = 21;
+const MAX_EDGES: usize = 21;
 
 /// The ends of the edges, in the order of the edges.
 type Graph = Vec<[u8; 2]>;
@@ -137,8 +137,7 @@ fn count(g: &Graph, h: &Graph, known: &mut HashMap<(Graph, Graph), u128>) -> Opt
     let is_bridge = |graph: &Graph| quotient(graph, others, 0, special).is_some();
     let bridges = u128::from(is_bridge(g)) + u128::from(is_bridge(h));
     if bridges > 0 {
-        let all = others;
-        let without = count(&restricted(g, all), &restricted(h, all), known)?;
+        let without = count(&restricted(g, others), &restricted(h, others), known)?;
         sum = sum.checked_add(bridges * without)?;
     }
     known.insert(key, sum);

@@ -440,10 +440,7 @@ pub fn length(problem: &Problem, object: usize) -> Option<DoubleDouble> {
 
 /// The power of two nearest to the mean length.
 fn unit(problem: &Problem) -> f64 {
-    let between = problem.distances.iter().map(|d| match &d.target {
-        Target::Length(length) => length.to_f64(),
-        Target::SquaredLength(squared) => squared.to_f64().sqrt(),
-    });
+    let between = problem.distances.iter().map(|d| d.target.to_f64());
     let from_lines = problem.constraints.iter().filter(|c| c.kind == "distances");
     let from_lines = from_lines.filter_map(|c| Some(c.value.as_ref()?.to_f64()));
     let all: Vec<f64> = between.chain(from_lines).collect();

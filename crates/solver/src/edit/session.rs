@@ -88,7 +88,15 @@ impl Session {
 
     /// Whether points can be dragged: the session was opened to do so, or its sketch is in its own frame.
     pub fn can_drag(&self) -> bool {
-        matches!(self.way, Way::Parts(_))
+        self.parts().is_some()
+    }
+
+    /// The sketch that is followed part by part, if it is.
+    fn parts(&self) -> Option<&Parts> {
+        match &self.way {
+            Way::Whole(_) => None,
+            Way::Parts(parts) => Some(parts),
+        }
     }
 
     /// Drags points to where they are wanted, all dimensions staying what they are, or as near to that as a figure is found; the rest moves
@@ -165,18 +173,12 @@ impl Session {
     /// Where the drawing of a problem in its own frame was singular, though figures near it are not: what was so about it, and how
     /// far it was moved off that place before it was led to its dimensions.
     pub fn singular(&self) -> Option<&Singular> {
-        match &self.way {
-            Way::Whole(_) => None,
-            Way::Parts(parts) => parts.singular(),
-        }
+        self.parts()?.singular()
     }
 
     /// How the equations fall apart, if they are followed part by part.
     pub fn decomposition(&self) -> Option<Decomposition> {
-        match &self.way {
-            Way::Whole(_) => None,
-            Way::Parts(parts) => Some(parts.decomposition()),
-        }
+        self.parts().map(Parts::decomposition)
     }
 
     /// Changes dimensions. The session's figure is then the one that was reached; it stays what it is if the

@@ -114,32 +114,19 @@ impl Setting {
     /// # Panics
     /// If the problem has no such dimension.
     pub fn new(problem: &Problem, index: usize, value: Decimal) -> Result<Self, SettingError> {
-        let name = problem.dimension_name(index);
-        match measure(problem, index) {
-            Measure::Length if !value.is_positive() => {
-                return Err(SettingError::NotPositive(name, value.to_string()));
+        let whole = |degrees: i32| Rational::from_integer(degrees.into());
+        let (is_positive, number) = (value.is_positive(), value.value());
+        let wrong = match measure(problem, index) {
+            Measure::Length if !is_positive => SettingError::NotPositive,
+            Measure::Ratio if !is_positive => SettingError::NotARatio,
+            Measure::Degrees if !is_positive || *number >= whole(180) => SettingError::NotAnAngle,
+            Measure::Slope if !is_positive || *number > whole(90) => SettingError::NotASlope,
+            _ => {
+                let target = Target::Length(value);
+                return Ok(Setting { index, target });
             }
-            Measure::Ratio if !value.is_positive() => {
-                return Err(SettingError::NotARatio(name, value.to_string()));
-            }
-            Measure::Degrees
-                if !(value.is_positive()
-                    && *value.value() < Rational::from_integer(180.into())) =>
-            {
-                return Err(SettingError::NotAnAngle(name, value.to_string()));
-            }
-            Measure::Slope
-                if !(value.is_positive()
-                    && *value.value() <= Rational::from_integer(90.into())) =>
-            {
-                return Err(SettingError::NotASlope(name, value.to_string()));
-            }
-            _ => {}
-        }
-        Ok(Setting {
-            index,
-            target: Target::Length(value),
-        })
+        };
+        Err(wrong(problem.dimension_name(index), value.to_string()))
     }
 
     /// What a dimension of a problem is.

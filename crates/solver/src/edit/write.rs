@@ -72,26 +72,17 @@ pub fn rewrite(
             put(value, float(*x))?;
         }
     }
-    for key in ["circles", "spheres"] {
-        let Some(circles) = table(root, key) else {
+    for key in ["circles", "spheres", "unknowns"] {
+        let Some(all) = table(root, key) else {
             continue;
         };
         for (object, located) in problem.objects.iter().zip(objects) {
-            let circle = circles.get(&object.name).and_then(Item::as_inline_table);
-            if let (Some(value), Some(radius)) = (
-                circle.and_then(|circle| circle.get("radius")),
-                located.number(),
-            ) {
-                put(value, float(radius.mid()))?;
-            }
-        }
-    }
-    if let Some(unknowns) = table(root, "unknowns") {
-        for (object, located) in problem.objects.iter().zip(objects) {
-            if let (Some(value), Some(number)) = (
-                unknowns.get(&object.name).and_then(Item::as_value),
-                located.number(),
-            ) {
+            let item = all.get(&object.name);
+            let value = match key {
+                "unknowns" => item.and_then(Item::as_value),
+                _ => item.and_then(|round| round.as_inline_table()?.get("radius")),
+            };
+            if let (Some(value), Some(number)) = (value, located.number()) {
                 put(value, float(number.mid()))?;
             }
         }

@@ -2,13 +2,17 @@
 
 use super::Remark;
 use super::target::length_in_words;
+use crate::blocks::list_of;
 use crate::places::Each as _;
 use crate::problem::Problem;
 
 /// A remark as a sentence without its end, with the names of points.
 pub fn in_words(problem: &Problem, remark: &Remark) -> String {
     let name = |p: usize| problem.points[p].name.as_str();
-    let list = |points: &[usize]| list(problem, points);
+    let list = |points: &[usize]| {
+        let names = points.iter().map(|&p| problem.points[p].name.clone());
+        list_of(&names.collect::<Vec<_>>(), 8)
+    };
     let (line, triangle) = match problem.dimension {
         2 => ("on one line", "line"),
         _ => ("in one plane", "plane"),
@@ -122,20 +126,5 @@ pub fn in_words(problem: &Problem, remark: &Remark) -> String {
             list(hinge),
             triangle
         ),
-    }
-}
-
-/// `a, b and c`; the first of many.
-fn list(problem: &Problem, points: &[usize]) -> String {
-    const SHOWN: usize = 8;
-    let names = points.iter().map(|&p| problem.points[p].name.as_str());
-    let names: Vec<&str> = names.collect();
-    match names.as_slice() {
-        [] => String::new(),
-        [one] => (*one).to_owned(),
-        all if all.len() > SHOWN => {
-            format!("{} and {} more", all[..SHOWN].join(", "), all.len() - SHOWN)
-        }
-        [first @ .., last] => format!("{} and {last}", first.join(", ")),
     }
 }

@@ -10,6 +10,7 @@ use crate::sets::Joined;
 use std::collections::HashMap;
 
 /// Blocks whose figures hang together, in order, with what is to be looked at once all of them are known.
+#[derive(Default)]
 pub(super) struct Part {
     pub blocks: Vec<usize>,
     /// Of the rows that were left out, by place.
@@ -52,14 +53,7 @@ pub(super) fn parts_of(cut: &Cut, is_fixed: &[bool]) -> Vec<Part> {
         let root = sets.of(b);
         let place = parts.iter().position(|(r, _)| *r == root);
         place.unwrap_or_else(|| {
-            parts.push((
-                root,
-                Part {
-                    blocks: Vec::new(),
-                    rows: Vec::new(),
-                    vectors: Vec::new(),
-                },
-            ));
+            parts.push((root, Part::default()));
             parts.len() - 1
         })
     };

@@ -255,26 +255,22 @@ fn of_constraint(cut: &Cut, kind: &str, mut items: Arguments) -> Option<Vec<Quan
         Some([Arrow::Between(b, a), Arrow::Between(b, c)])
     };
     let both = |items: &mut Arguments| Some([line(items)?, line(items)?]);
+    let turn = |items: &mut Arguments, at_point: bool| {
+        let [u, v] = match at_point {
+            true => legs(items)?,
+            false => both(items)?,
+        };
+        Some(Quantity::Turn(u, v))
+    };
     let is_points = |items: &Arguments, n: usize| items.left() == n && items.points_ahead() == n;
     Some(match kind {
         "angles" | "perpendicular" if flat => {
-            let [u, v] = match kind == "angles" && is_points(&items, 3) {
-                true => legs(&mut items)?,
-                false => both(&mut items)?,
-            };
-            vec![Quantity::Turn(u, v)]
+            let at_point = kind == "angles" && is_points(&items, 3);
+            vec![turn(&mut items, at_point)?]
         }
         "equal_angles" if flat => {
             let at_points = is_points(&items, 6);
-            let mut out = Vec::new();
-            for _ in 0..2 {
-                let [u, v] = match at_points {
-                    true => legs(&mut items)?,
-                    false => both(&mut items)?,
-                };
-                out.push(Quantity::Turn(u, v));
-            }
-            out
+            vec![turn(&mut items, at_points)?, turn(&mut items, at_points)?]
         }
         "parallel" => {
             let is_line = |sort: Sort| matches!(sort, Sort::Line | Sort::Axis);

@@ -91,10 +91,9 @@ mod tests {
         // The unknowns are 0, 1 and 2, `zero` is 3; known numbers follow.
         let at = x.len();
         x.extend([point(p), point(q), point(-s)]);
-        let square = |factor, a, b| Product {
-            factor: point(factor),
-            left: Form::Difference(a, b),
-            right: Form::Difference(a, b),
+        let square = |factor, a, b| {
+            let form = Form::Difference(a, b);
+            Product::new(point(factor), form, form)
         };
         let products = vec![
             square(1.0, 0, at),

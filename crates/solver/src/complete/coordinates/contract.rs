@@ -216,11 +216,7 @@ mod tests {
 
     fn square(a: usize, b: usize) -> Product {
         let form = Form::Difference(a, b);
-        Product {
-            factor: point(1.0),
-            left: form,
-            right: form,
-        }
+        Product::new(point(1.0), form, form)
     }
 
     #[test]
@@ -241,10 +237,9 @@ mod tests {
     /// A right angle at (x, y) between (1, 0) and (3, 2): entries x, y, and the numbers 1, 3, 2 and 0.
     #[test]
     fn a_right_angle_bounds_what_was_unbounded() {
-        let product = |i, j, k, l| Product {
-            factor: point(1.0),
-            left: Form::Difference(i, j),
-            right: Form::Difference(k, l),
+        let product = |i, j, k, l| {
+            let [left, right] = [(i, j), (k, l)].map(|(a, b)| Form::Difference(a, b));
+            Product::new(point(1.0), left, right)
         };
         for across in [product(0, 2, 0, 3), product(2, 0, 3, 0)] {
             let row = Row::new(vec![across, product(1, 5, 1, 4)], ZERO, 5);
@@ -273,15 +268,8 @@ mod tests {
     #[test]
     fn a_product_that_is_not_zero_keeps_its_factors_from_zero() {
         // x y = 6 with y between −2 and 3 and x above −1: x is at least 2 then.
-        let row = Row::new(
-            vec![Product {
-                factor: point(2.0),
-                left: Form::Difference(0, 2),
-                right: Form::Difference(1, 2),
-            }],
-            point(12.0),
-            2,
-        );
+        let [x, y] = [0, 1].map(|entry| Form::Difference(entry, 2));
+        let row = Row::new(vec![Product::new(point(2.0), x, y)], point(12.0), 2);
         let mut x = vec![hull(-1.0, 9.0), hull(-2.0, 3.0), ZERO];
         contract(&[&row], &[true, true, false], &mut x).unwrap();
         assert!(x[0].contains(2.0) && x[0].inf() > 1.999 && x[0].sup() == 9.0);

@@ -4,7 +4,7 @@
 //! said of each part is what the check will find. The search before has found the figures, and says which unknown to halve.
 
 use super::newton::Square;
-use super::search::{Block as Searched, COARSE, Choice, MANY, SMALL};
+use super::search::{Block as Searched, COARSE, MANY, SMALL};
 use super::sides::MOST as MOST_REDUCED;
 use crate::blocks::Block as Cut;
 use crate::certificate::cover::coordinates::{
@@ -221,9 +221,7 @@ impl Writer<'_> {
             }
             let least = if self.left > MANY { COARSE } else { SMALL };
             let halves = match block.widest(&before) {
-                Choice::Halve(u, widest) if widest >= least => {
-                    part.halved(u).map(|parts| (u, parts))
-                }
+                Some((u, widest)) if widest >= least => part.halved(u).map(|parts| (u, parts)),
                 _ => None,
             };
             let Some((u, [low, high])) = halves else {

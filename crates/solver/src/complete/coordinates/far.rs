@@ -45,11 +45,7 @@ mod tests {
     fn corner(u: [f64; 2], v: [f64; 2], wide: f64) -> (Vec<Row>, Vec<Interval>) {
         const ZERO_ENTRY: usize = 8;
         let value = |entry| Form::Difference(entry, ZERO_ENTRY);
-        let product = |factor, left, right| Product {
-            factor: point(factor),
-            left,
-            right,
-        };
+        let product = |factor, left, right| Product::new(point(factor), left, right);
         let mut rows = Vec::new();
         for (far, heading, place) in [(2, 4, [0.0, 0.0]), (3, 6, [1.0, 0.0])] {
             for axis in 0..2 {

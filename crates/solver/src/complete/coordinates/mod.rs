@@ -291,23 +291,15 @@ fn bound_pairs(system: &mut System, homotopy: &Homotopy, targets: &Targets) {
     // Both units are powers of two.
     let scale = targets.unit / homotopy.unit;
     let scale = scale * scale;
-    let names = system.names();
-    let entry = |p: usize, axis: usize| {
-        let unknown = homotopy.coordinate(p, axis);
-        names[unknown.unwrap_or(system.unknowns)]
-    };
-    let mut bounds = Vec::new();
+    let entry = system.coordinates(homotopy);
     for a in 0..targets.points {
         for b in 0..a {
             let [least, most] = pairs.squares(a, b).each(|x| x * scale);
             if targets.edge(a, b).is_none() && most < FAR {
                 let ends = (0..homotopy.dimension).map(|axis| [entry(a, axis), entry(b, axis)]);
-                bounds.push((ends.collect::<Vec<_>>(), hull(least, most)));
+                system.bound(&ends.collect::<Vec<_>>(), hull(least, most));
             }
         }
-    }
-    for (ends, square) in bounds {
-        system.bound(&ends, square);
     }
 }
 

@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 use std::cmp::Ordering;
 
 /// A block: as many equations as unknowns, all other entries being known.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Square<'a> {
     /// The equations.
     pub rows: Vec<&'a Row>,
@@ -34,13 +34,6 @@ pub struct Zero {
     pub radius: f64,
     /// No other zero is within this of the middle in every unknown.
     pub alone: f64,
-}
-
-/// What Newton's step says of a box.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Step {
-    /// ‖I − Y S‖, or infinity where there is no Y.
-    pub defect: f64,
 }
 
 impl Square<'_> {
@@ -102,15 +95,14 @@ impl Square<'_> {
     }
 
     /// Newton's step in a bounded box: the equations are quadratic, so that F(x) = F(c) + J((x + c)/2)(x − c) exactly, and
-    /// with any matrix Y the sum Y F(x) is 0 at a zero: each of its lines is solved for one unknown.
-    pub fn step(&self, x: &mut [Interval]) -> Result<Step, Empty> {
+    /// with any matrix Y the sum Y F(x) is 0 at a zero: each of its lines is solved for one unknown. What comes
+    /// back is ‖I − Y S‖, with S for J over the box, or infinity where there is no Y.
+    pub fn step(&self, x: &mut [Interval]) -> Result<f64, Empty> {
         let n = self.size();
         let middle: Vec<f64> = self.own.iter().map(|&u| x[u].mid()).collect();
         let near = self.floats(x, &middle);
         let Some(y) = self.inverse(&near) else {
-            return Ok(Step {
-                defect: f64::INFINITY,
-            });
+            return Ok(f64::INFINITY);
         };
         let at = self.with(x, |k| point(middle[k]));
         let f: Vec<Interval> = self.rows.iter().map(|row| row.value(&at)).collect();
@@ -156,7 +148,7 @@ impl Square<'_> {
             }
             x[u] = new;
         }
-        Ok(Step { defect })
+        Ok(defect)
     }
 
     /// Newton's method from the middle of a box, then the test that [`alone`] ends, for all values that the known entries may have in

@@ -17,11 +17,7 @@ pub struct Oriented {
 impl Oriented {
     /// Those of a problem.
     pub fn new(signs: Signs, system: &System, homotopy: &Homotopy, points: usize) -> Self {
-        let names = system.names();
-        let entry = |p: usize, axis: usize| {
-            let unknown = homotopy.coordinate(p, axis);
-            names[unknown.unwrap_or(system.unknowns)]
-        };
+        let entry = system.coordinates(homotopy);
         let zero = system.unknowns;
         let coordinates = (0..points).map(|p| {
             [0, 1, 2].each(|axis| {

@@ -1,9 +1,9 @@
 //! A part of a search that goes on by itself, and how one of its parts is looked at.
 
-use super::construction::{Leaf, Order, Walked, walk};
+use super::construction::{Leaf, Order, walk};
 use super::contract::{contract, contract_near};
 use super::far::far;
-use super::search::{Block, Choice, Run};
+use super::search::{Block, Run};
 use super::system::{Row, relative_width};
 use super::tally::Tally;
 use crate::certificate::cover::coordinates::Empty;
@@ -113,12 +113,8 @@ impl<'s, 'a> Piece<'s, 'a> {
             return self.tally.done(share);
         }
         let least = self.tally.least(self.curve.is_some());
-        let (which, widest) = match self.block.widest(&x) {
-            Choice::Halve(u, widest) => (u, widest),
-            Choice::Huge => {
-                self.tally.leave(Why::Unbounded, share);
-                return;
-            }
+        let Some((which, widest)) = self.block.widest(&x) else {
+            return self.tally.leave(Why::Unbounded, share);
         };
         if widest < least {
             let why = match self.curve {
@@ -159,8 +155,8 @@ impl<'s, 'a> Piece<'s, 'a> {
         }
         let leaves = loop {
             match walk(self.symbols, order, &self.block.square.rows, &node.x) {
-                Walked::MoreSymbols => self.symbols += 1,
-                Walked::Leaves(leaves) => break leaves,
+                Some(leaves) => break leaves,
+                None => self.symbols += 1,
             }
         };
         if leaves.is_empty() {
@@ -259,8 +255,8 @@ impl<'s, 'a> Piece<'s, 'a> {
     fn together(&mut self, x: &mut [Interval]) -> Result<bool, Empty> {
         let square = &self.block.square;
         let before = self.block.volume(x);
-        let step = square.step(x)?;
-        if step.defect < 2.0 && self.tally.prove(square, x) {
+        let defect = square.step(x)?;
+        if defect < 2.0 && self.tally.prove(square, x) {
             return Err(Empty);
         }
         Ok(self.block.volume(x) <= before - WORTH)

@@ -83,6 +83,7 @@ const NONE: f64 = 1e-6;
 const HUGE: f64 = (1u64 << 40) as f64;
 
 /// A block and how it is contracted.
+#[derive(Clone)]
 pub struct Block<'a> {
     /// The equations with the unknowns.
     pub square: Square<'a>,
@@ -316,8 +317,9 @@ impl<'a> Block<'a> {
         })
     }
 
-    /// The unknown to be halved: the one that moves the equations most, each beside what all others move it.
-    pub fn widest(&self, x: &[Interval]) -> Choice {
+    /// The unknown to be halved: the one that moves the equations most, each beside what all others move it; and how wide the widest range
+    /// is, beside its size. `None`: an unknown may be as large as it likes.
+    pub fn widest(&self, x: &[Interval]) -> Option<(usize, f64)> {
         let square = &self.square;
         let (mut widest, mut unbounded): (f64, Option<usize>) = (0.0, None);
         for &u in &square.own {
@@ -338,8 +340,8 @@ impl<'a> Block<'a> {
             // Near first; what is far is looked at only where all others are known well.
             if widest * near.abs() < 1.0 {
                 return match near.abs() > HUGE {
-                    true => Choice::Huge,
-                    false => Choice::Halve(u, f64::INFINITY),
+                    true => None,
+                    false => Some((u, f64::INFINITY)),
                 };
             }
         }
@@ -370,13 +372,11 @@ impl<'a> Block<'a> {
             x.is_common_interval() && relative_width(x) > 1e-3 * widest
         });
         let best = best.max_by(|&a, &b| smear[a].total_cmp(&smear[b]));
-        match best {
-            Some(k) => Choice::Halve(square.own[k], widest),
-            None => match unbounded {
-                Some(u) => Choice::Halve(u, f64::INFINITY),
-                None => Choice::Halve(square.own[0], 0.0),
-            },
-        }
+        Some(match (best, unbounded) {
+            (Some(k), _) => (square.own[k], widest),
+            (None, Some(u)) => (u, f64::INFINITY),
+            (None, None) => (square.own[0], 0.0),
+        })
     }
 }
 
@@ -470,14 +470,6 @@ pub fn leave(undecided: &mut Vec<Part>, why: Why, count: u64, share: f64) {
         }
         None => undecided.push(Part { why, count, share }),
     }
-}
-
-/// What is done with a part that is not decided.
-pub enum Choice {
-    /// This unknown is halved; and how wide the widest range is, beside its size.
-    Halve(usize, f64),
-    /// An unknown may be as large as it likes.
-    Huge,
 }
 
 /// The range that a zero has, made a little wider than its box by rounding.

@@ -5,7 +5,6 @@
 //! where they do not say all that the others do ([`Side`]). Every zero is on some side of each equation, so that nothing is lost.
 
 use super::contract::contract;
-use super::newton::Square;
 use super::search::{About, Block, Found, Run, leave};
 use super::system::{Form, Product, Row};
 use crate::complete::Why;
@@ -22,11 +21,9 @@ pub const MOST: usize = 60;
 /// A row that says what a flat equation says. `zero`: the entry that is the number 0.
 pub fn row(flat: &Flat, zero: usize) -> Row {
     let value = |u: usize| Form::Difference(u, zero);
-    let terms = flat.terms.iter().map(|&(factor, u, v)| Product {
-        factor,
-        left: value(u),
-        right: v.map_or(Form::One, value),
-    });
+    let terms = flat.terms.iter();
+    let terms =
+        terms.map(|&(factor, u, v)| Product::new(factor, value(u), v.map_or(Form::One, value)));
     Row::new(terms.collect(), -flat.constant, zero)
 }
 
@@ -217,25 +214,10 @@ fn on_side<'b, 'a: 'b>(
     (place, side): (usize, [usize; 2]),
     row: &'b Row,
 ) -> Block<'b> {
-    let replaced = |rows: &[&'b Row]| {
-        let mut rows = rows.to_vec();
-        rows[place] = row;
-        rows
-    };
-    Block {
-        square: Square {
-            rows: replaced(&block.square.rows),
-            own: block.square.own.clone(),
-            place: block.square.place.clone(),
-        },
-        // The equations come first there, too.
-        rows: replaced(&block.rows),
-        is_free: block.is_free.clone(),
-        zero: block.zero,
-        positive: block.positive.clone(),
-        nonzero: block.nonzero.clone(),
-        oriented: block.oriented.clone(),
-        equations: block.equations.clone(),
-        sides: block.sides.iter().copied().chain([side]).collect(),
-    }
+    let mut sided: Block<'b> = block.clone();
+    sided.square.rows[place] = row;
+    // The equations come first there, too.
+    sided.rows[place] = row;
+    sided.sides.push(side);
+    sided
 }

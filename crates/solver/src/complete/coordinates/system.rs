@@ -170,6 +170,15 @@ impl System {
         (0..=zero).map(|entry| sets.of(entry)).collect()
     }
 
+    /// The entry that stands for a coordinate of a point along an axis.
+    pub fn coordinates<'h>(
+        &self,
+        homotopy: &'h Homotopy,
+    ) -> impl Fn(usize, usize) -> usize + use<'h> {
+        let (names, zero) = (self.names(), self.unknowns);
+        move |p, axis| names[homotopy.coordinate(p, axis).unwrap_or(zero)]
+    }
+
     /// Adds bounds of the squared distance of two points, given by the entries of their coordinates.
     pub fn bound(&mut self, ends: &[[usize; 2]], square: Interval) {
         let products = ends.iter().map(|&[a, b]| {

@@ -15,7 +15,6 @@ use crate::complex::vector::{Z, cross, dot, minus, plus};
 use crate::interval::complex::Number;
 use crate::interval::{DoubleDouble, Interval, enclose_rational, point};
 use crate::order::InOrder;
-use crate::rational::Rational;
 
 /// A point belongs to those that go where it is so much farther than the next nearer one, in typical lengths.
 const GAP: f64 = 1e3;
@@ -141,10 +140,7 @@ fn system(graph: &Graph, split: &Split) -> Option<System> {
         name: String::new(),
         terms,
         power: 0,
-        right: Kind::Fixed(Exact {
-            re: value,
-            im: Rational::zero(),
-        }),
+        right: Kind::Fixed(Exact::real(value)),
         bows: false,
     };
     let system = System {

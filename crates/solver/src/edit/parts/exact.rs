@@ -167,9 +167,7 @@ impl Parts {
         }
         out
     }
-}
 
-impl Parts {
     /// Lines and arcs all of whose coordinates are known exactly.
     pub(super) fn exact_segments(
         &self,
@@ -223,9 +221,7 @@ impl Parts {
         }
         out
     }
-}
 
-impl Parts {
     /// How far figures are off what is looked at and is about numbers that are known exactly alone. (Others are in a part that is followed.)
     pub(super) fn exact_besides(
         &self,

@@ -10,4 +10,4 @@ mod tests;
 mod walk;
 
 pub use order::Order;
-pub use walk::{Leaf, Walked, walk};
+pub use walk::{Leaf, walk};

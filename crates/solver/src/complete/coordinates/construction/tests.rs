@@ -1,6 +1,6 @@
 //! No zero is lost, wherever it is in a part and however large that is.
 
-use super::{Order, Walked, walk};
+use super::{Order, walk};
 use crate::blocks::Blocks;
 use crate::complete::coordinates::search::Block;
 use crate::complete::coordinates::system::{Row, System};
@@ -71,10 +71,7 @@ fn look(system: &System, sketch: &[f64], seed: u64, seen: &mut Seen) {
                 let [below, above] = [random.next(), random.next()].each(|x| width * x.max(0.0));
                 x[u] = hull(zero[u] - below, zero[u] + above);
             }
-            let leaves = (0..=6).find_map(|symbols| match walk(symbols, order, &rows, &x) {
-                Walked::Leaves(leaves) => Some(leaves),
-                Walked::MoreSymbols => None,
-            });
+            let leaves = (0..=6).find_map(|symbols| walk(symbols, order, &rows, &x));
             let leaves = leaves.expect("with six variables it comes to an end");
             let has_it = |x: &[Interval]| own.iter().all(|&u| x[u].contains(zero[u]));
             let holder = leaves.iter().find(|leaf| has_it(&leaf.x));

@@ -57,14 +57,6 @@ pub struct Leaf {
     pub is_whole: bool,
 }
 
-/// What came of a part.
-pub enum Walked {
-    /// Every zero in it is in one of these.
-    Leaves(Vec<Leaf>),
-    /// More variables are needed.
-    MoreSymbols,
-}
-
 /// Why a way ends.
 enum Stop<const S: usize> {
     /// It has no zero.
@@ -92,14 +84,12 @@ struct Along<const S: usize, const M: usize> {
     b: Vec<Model<S, M>>,
 }
 
-/// An unknown at middle ± half.
-struct Roots<const S: usize, const M: usize> {
-    middle: Model<S, M>,
-    half: Model<S, M>,
-}
+/// An unknown at the first of these, plus or minus the second.
+type Roots<const S: usize, const M: usize> = [Model<S, M>; 2];
 
-/// Constructs the unknowns of a block in a part in which they are bounded, with so many variables. `rows`: the block's equations.
-pub fn walk(symbols: usize, order: &Order, rows: &[&Row], x: &[Interval]) -> Walked {
+/// Constructs the unknowns of a block in a part in which they are bounded, with so many variables: every zero in it is in one
+/// of these leaves. `None`: more variables are needed. `rows`: the block's equations.
+pub fn walk(symbols: usize, order: &Order, rows: &[&Row], x: &[Interval]) -> Option<Vec<Leaf>> {
     match symbols {
         0 => Walk::<0, 1>::run(order, rows, x),
         1 => Walk::<1, 3>::run(order, rows, x),
@@ -137,7 +127,7 @@ struct Walk<'a, const S: usize, const M: usize> {
 const ONE: Number = Number { mid: 1.0, rad: 0.0 };
 
 impl<'a, const S: usize, const M: usize> Walk<'a, S, M> {
-    fn run(order: &'a Order, rows: &'a [&'a Row], x: &'a [Interval]) -> Walked {
+    fn run(order: &'a Order, rows: &'a [&'a Row], x: &'a [Interval]) -> Option<Vec<Leaf>> {
         let mut f = vec![Model::<S, M>::ZERO; x.len()];
         for &entry in &order.outside {
             f[entry] = Model::constant(Number::new(x[entry]));
@@ -156,13 +146,13 @@ impl<'a, const S: usize, const M: usize> Walk<'a, S, M> {
             is_overfull: false,
         };
         match walk.go(0) {
-            Err(Stop::MoreSymbols) => Walked::MoreSymbols,
-            _ if walk.is_overfull => Walked::Leaves(vec![Leaf {
+            Err(Stop::MoreSymbols) => None,
+            _ if walk.is_overfull => Some(vec![Leaf {
                 x: x.to_vec(),
                 halve: None,
                 is_whole: false,
             }]),
-            _ => Walked::Leaves(walk.leaves),
+            _ => Some(walk.leaves),
         }
     }
 
@@ -251,7 +241,7 @@ impl<'a, const S: usize, const M: usize> Walk<'a, S, M> {
             return self.found(step, &along.a, &used);
         };
         along.b[z] = Model::constant(ONE);
-        let Some(roots) = self.roots((now, z), quadric, &along)? else {
+        let Some([middle, half]) = self.roots((now, z), quadric, &along)? else {
             // Its equation is one that closes.
             let y = self.symbol(now.unknowns[z])?.minus(&self.f[now.base[z]]);
             return self.found(step, &along.with(&y), &used);
@@ -259,7 +249,7 @@ impl<'a, const S: usize, const M: usize> Walk<'a, S, M> {
         used.push(quadric.0.row);
         let before = self.mark();
         for sign in [1.0, -1.0] {
-            let x = roots.middle.plus(&roots.half.scaled(sign));
+            let x = middle.plus(&half.scaled(sign));
             if meets(x.range(), self.x[now.unknowns[z]]) {
                 let y = x.minus(&self.f[now.base[z]]);
                 let result = self.found(step, &along.with(&y), &used);
@@ -424,10 +414,9 @@ impl<'a, const S: usize, const M: usize> Walk<'a, S, M> {
             };
         }
         let over = first.reciprocal(range);
-        Ok(Some(Roots {
-            middle: self.f[now.base[z]].minus(&second.times(&over)),
-            half: radicand.square_root(height).times(&over),
-        }))
+        let middle = self.f[now.base[z]].minus(&second.times(&over));
+        let half = radicand.square_root(height).times(&over);
+        Ok(Some([middle, half]))
     }
 
     /// The unknowns of a step stand: looks at what that means for the equations, and goes on.
