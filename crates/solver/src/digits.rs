@@ -35,6 +35,11 @@ const MOST_BITS: i64 = 3000;
 /// Newton's method takes no more steps: it gains some digits in each.
 const STEPS: usize = 40;
 
+const NOT_SQUARE: &str =
+    "there are not as many equations as unknowns there: constraints were left out of the search";
+const NOT_IN_ITS_BOX: &str = "it is not proved that the figure found lies in the solution's box, which is narrower than what is known of it, \
+                              or holds another one";
+
 /// A solution to many digits, each number off by at most 1 in its last.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Digits {
@@ -55,11 +60,9 @@ pub fn to_digits(
     objects: &[Located],
     digits: u32,
 ) -> Result<Digits, String> {
-    let square = |problem: &Problem| {
-        match problem.check() {
+    let square = |problem: &Problem| match problem.check() {
         Ok(()) => Homotopy::new(problem).map_err(|error| error.to_string()),
-        Err(_) => Err("there are not as many equations as unknowns there: constraints were left out of the search".to_owned()),
-    }
+        Err(_) => Err(NOT_SQUARE.to_owned()),
     };
     let homotopy = square(problem)?;
     let drawn = square(&drawn(problem, points, objects)?)?;
@@ -93,8 +96,7 @@ pub fn to_digits(
         None => known.contains(0.0),
     });
     if !are_in || !numbers.iter().all(|&(_, i, known)| is_in(i, known)) {
-        return Err("it is not proved that the figure found lies in the solution's box, which is narrower than what is known of it, or holds \
-                    another one".to_owned());
+        return Err(NOT_IN_ITS_BOX.to_owned());
     }
     let enclosed = |i: usize| {
         let Ball { middle, radius } = &x[i];
