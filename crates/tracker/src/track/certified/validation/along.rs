@@ -5,6 +5,9 @@ use super::precise::big::{Big, dot};
 use super::precise::{Figure, at};
 use super::*;
 
+/// How near points of the path are known that are compared to 1e-9.
+const NEAR: f64 = 1e-24;
+
 /// The sketch, with t = 0.
 pub fn sketch(homotopy: &Homotopy, equations: &Equations) -> Vector {
     let mut z = equations.vector();
@@ -26,37 +29,37 @@ pub fn at_sketch(
     Some(local)
 }
 
-/// If two tubes are linked, then the first one's exit is in the second where it is said to be,
-/// and both run the same way there.
+/// The point of the path that a tube has at a place along it, and the path's direction there.
+pub fn on_path<const N: usize, Y>(figure: &Figure, tube: &Tube<N, Y>, s: f64) -> [Vec<Big>; 2] {
+    let (through, _) = at(tube, &Big::of(s));
+    let found = figure.point_within(NEAR, &through, &tube.local.normal);
+    found.expect("a regular point").into()
+}
+
+/// If a tube is linked to another, then its exit, [`on_path`], is in the other one where it is said to be, and both run the
+/// same way there.
 pub fn link_is_true<const N: usize, Y>(
     figure: &Figure,
-    from: &Tube<N, Y>,
+    [exit, ahead]: &[Vec<Big>; 2],
     to: &Tube<N, Y>,
     entry: (f64, f64),
 ) -> bool {
-    let point = |tube: &Tube<N, Y>, s: f64| {
-        let (through, _) = at(tube, &Big::of(s));
-        figure
-            .point_near(&through, &tube.local.normal)
-            .expect("a regular point")
-    };
-    let (exit, ahead) = point(from, from.exit_at);
-    let (there, along) = point(to, 0.5 * (entry.0 + entry.1));
+    let [there, along] = on_path(figure, to, 0.5 * (entry.0 + entry.1));
     // The entry's width moves the point by about as much, the weights aside.
     let allowed = Big::of(1e-9 + 2.0 * (entry.1 - entry.0));
     let mut pairs = exit.iter().zip(&there);
-    pairs.all(|(a, b)| (a - b).abs() <= allowed) && dot(&ahead, &along) > Big::of(0.0)
+    pairs.all(|(a, b)| (a - b).abs() <= allowed) && dot(ahead, &along) > Big::of(0.0)
 }
 
-/// Whether a tube is found to lead to another; if so that is true.
+/// Whether a tube, of which the exit is known, is found to lead to another; if so that is true.
 #[track_caller]
 pub fn leads_truly<const N: usize, Y: Frame>(
     figure: &Figure,
-    from: &Tube<N, Y>,
+    (from, exit): (&Tube<N, Y>, &[Vec<Big>; 2]),
     to: &Tube<N, Y>,
 ) -> bool {
     let link = from.leads_to(to);
-    let is_true = link.is_none_or(|entry| link_is_true(figure, from, to, entry));
+    let is_true = link.is_none_or(|entry| link_is_true(figure, exit, to, entry));
     assert!(is_true, "linked to a tube that it does not lead to");
     link.is_some()
 }

@@ -24,7 +24,7 @@ mod tubes;
 pub use faults::inject as inject_fault;
 
 use crate::plan::testing;
-use along::{at_sketch, leads_truly, link_is_true, mirrored, sketch};
+use along::{at_sketch, leads_truly, link_is_true, mirrored, on_path, sketch};
 
 use super::link::Tube;
 use super::tracker::Test;

@@ -27,7 +27,8 @@ fn sabotage<const N: usize, T: Stated<N>>(
     let stride = (chain.len() / 40).max(1);
     for k in (0..chain.len() - 1).step_by(stride) {
         let (from, next) = (&chain[k].tube, &chain[k + 1].tube);
-        assert!(link_is_true(&figure, from, next, next.entry));
+        let exit = on_path(&figure, from, from.exit_at);
+        assert!(link_is_true(&figure, &exit, next, next.entry));
         let (z, normal) = (&next.local.z[0], &next.local.normal);
 
         // The same piece of path, followed backwards.
@@ -41,7 +42,7 @@ fn sabotage<const N: usize, T: Stated<N>>(
         // The mirror image, which meets the same equations.
         let [z_image, image] = [z, normal].map(|v| mirrored(&homotopy, v));
         if let Some(image) = maker.tube(&z_image, &image, true) {
-            leads_truly(&figure, from, &image.tube);
+            leads_truly(&figure, (from, &exit), &image.tube);
             tally.mirrored += 1;
         }
 
@@ -50,7 +51,7 @@ fn sabotage<const N: usize, T: Stated<N>>(
             let shifted = z[..n].iter();
             let shifted = shifted.map(|z| z + spread * random.between(-1.0, 1.0));
             if let Some(other) = maker.tube(&shifted.collect::<Vec<_>>(), normal, true) {
-                leads_truly(&figure, from, &other.tube);
+                leads_truly(&figure, (from, &exit), &other.tube);
                 tally.shifted += 1;
             }
         }
@@ -76,7 +77,7 @@ fn sabotage<const N: usize, T: Stated<N>>(
                 }
             }
             let other = maker.tube(&start, &local.normal, true);
-            if other.is_some_and(|other| !leads_truly(&figure, from, &other.tube)) {
+            if other.is_some_and(|other| !leads_truly(&figure, (from, &exit), &other.tube)) {
                 tally.branches += 1;
             }
         }
@@ -84,7 +85,7 @@ fn sabotage<const N: usize, T: Stated<N>>(
         // Tubes left out, or taken in the wrong order.
         tally.pairs += chain.len();
         let others = chain.iter();
-        let linked = others.filter(|other| leads_truly(&figure, from, &other.tube));
+        let linked = others.filter(|other| leads_truly(&figure, (from, &exit), &other.tube));
         tally.linked_pairs += linked.count();
     }
 }

@@ -130,7 +130,8 @@ impl Sum for Big {
 }
 
 pub fn dot(a: &[Big], b: &[Big]) -> Big {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
+    let parts = nonzero(a).into_iter();
+    parts.map(|(i, x)| x * &b[i]).sum()
 }
 
 /// A vector of floats, exactly.
@@ -156,6 +157,13 @@ pub fn horner_slope(coefficients: &[f64], s: &Big) -> Big {
     out
 }
 
+/// What is not zero in a row, with where it stands.
+fn nonzero(row: &[Big]) -> Vec<(usize, Big)> {
+    let zero = Big::of(0.0);
+    let entries = row.iter().cloned().enumerate();
+    entries.filter(|(_, x)| *x != zero).collect()
+}
+
 /// X with A X = G, by Gauss's elimination with row pivots. `None`: A is singular.
 pub fn solve(mut a: Rows, mut g: Rows) -> Option<Rows> {
     let n = a.len();
@@ -170,26 +178,26 @@ pub fn solve(mut a: Rows, mut g: Rows) -> Option<Rows> {
             return None;
         }
         let scale = Big::of(1.0) / &a[k][k];
-        let (row, right) = (a[k].clone(), g[k].clone());
+        let (row, right) = (nonzero(&a[k][k + 1..]), nonzero(&g[k]));
         for i in k + 1..n {
             if a[i][k] == Big::of(0.0) {
                 continue;
             }
             let factor = &a[i][k] * &scale;
-            for j in k + 1..n {
-                a[i][j] -= &factor * &row[j];
+            for (j, y) in &row {
+                a[i][k + 1 + j] -= &factor * y;
             }
-            for (x, y) in g[i].iter_mut().zip(&right) {
-                *x -= &factor * y;
+            for (j, y) in &right {
+                g[i][*j] -= &factor * y;
             }
         }
     }
     for k in (0..n).rev() {
         let scale = Big::of(1.0) / &a[k][k];
         let mut row = g[k].clone();
-        for (j, from) in g.iter().enumerate().skip(k + 1) {
-            for (x, y) in row.iter_mut().zip(from) {
-                *x -= &a[k][j] * y;
+        for (j, factor) in nonzero(&a[k][k + 1..]) {
+            for (x, y) in row.iter_mut().zip(&g[k + 1 + j]) {
+                *x -= &factor * y;
             }
         }
         g[k] = row.iter().map(|x| x * &scale).collect();

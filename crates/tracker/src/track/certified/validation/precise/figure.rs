@@ -6,7 +6,7 @@ use crate::places::Each as _;
 use crate::problem::{Problem, Target};
 use crate::rational::Rational;
 use crate::system::{Homotopy, Term};
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
 pub struct Figure {
     pub m: usize,
@@ -155,30 +155,46 @@ impl Figure {
     /// The zero of F in the cross-section c·(z − through) = 0 that Newton's method finds from there, and
     /// the x with J x = 0, c·x = 1 there. `None`: it does not converge.
     pub fn point_near(&self, through: &[Big], c: &[f64]) -> Option<(Vec<Big>, Vec<Big>)> {
+        self.point_within(NEAR, through, c)
+    }
+
+    /// The same, where the last step is shorter than `within`.
+    pub fn point_within(
+        &self,
+        within: f64,
+        through: &[Big],
+        c: &[f64],
+    ) -> Option<(Vec<Big>, Vec<Big>)> {
         let mut z = through.to_vec();
         let normal = exact(&c[..self.n]);
+        let (mut near, mut is_short) = (None, false);
         for round in 0..40 {
             let mut g = self.residual(&z);
             let away: Vec<Big> = z.iter().zip(through).map(|(z, x)| z - x).collect();
             g.push(dot(&normal, &away));
-            let rows = self.bordered(&z, c);
-            // An inverse in floats is quick, and good enough for all but what is nearly singular.
-            let step = match round < IN_FLOATS {
-                true => times_inverse(&rows, &g)?,
-                false => solved(rows, g)?,
+            // An inverse in floats is quick, and good enough for all but what is nearly singular. Where z moves by less than it is
+            // rounded it stays the same.
+            let step = if round < IN_FLOATS {
+                if !is_short {
+                    near = inverse(&self.bordered(&z, c));
+                }
+                times(near.as_ref()?, &g)?
+            } else {
+                solved(self.bordered(&z, c), g)?
             };
-            let mut size = Big::of(0.0);
+            let size = greatest(&step);
             for (z, step) in z.iter_mut().zip(step) {
-                size = size.max(step.abs());
                 *z -= step;
             }
-            if size < Big::of(1e-60) {
-                // The Jacobian of the last step was at a point nearer than 1e-30.
+            if size < Big::of(within) {
                 let mut right = vec![Big::of(0.0); self.n];
                 right[self.m] = Big::of(1.0);
-                let x = solved(self.bordered(&z, c), right)?;
+                let rows = self.bordered(&z, c);
+                let x = refined(within, &rows, near.as_ref()?, &right)
+                    .or_else(|| solved(rows, right))?;
                 return Some((z, x));
             }
+            is_short = size < Big::of(f64::EPSILON);
         }
         None
     }
@@ -186,6 +202,8 @@ impl Figure {
 
 /// So many of Newton's steps are made with inverses in floats.
 const IN_FLOATS: usize = 16;
+/// Steps that are shorter are the last.
+const NEAR: f64 = 1e-60;
 
 /// A⁻¹ g.
 fn solved(a: Rows, g: Vec<Big>) -> Option<Vec<Big>> {
@@ -194,13 +212,39 @@ fn solved(a: Rows, g: Vec<Big>) -> Option<Vec<Big>> {
     Some(x.map(|mut row| row.swap_remove(0)).collect())
 }
 
-/// The same with an inverse that is rounded to floats.
-fn times_inverse(a: &Rows, g: &[Big]) -> Option<Vec<Big>> {
+/// About the inverse, in floats.
+fn inverse(a: &Rows) -> Option<DMatrix<f64>> {
     let n = a.len();
     let inverse = DMatrix::from_fn(n, n, |i, j| a[i][j].to_f64()).try_inverse()?;
-    if !inverse.iter().all(|x| x.is_finite()) {
-        return None;
+    let is_finite = inverse.iter().all(|x| x.is_finite());
+    is_finite.then_some(inverse)
+}
+
+/// About A⁻¹ g, to as many digits as floats have. `None`: it is beyond them.
+fn times(inverse: &DMatrix<f64>, g: &[Big]) -> Option<Vec<Big>> {
+    let step = inverse * DVector::from_iterator(g.len(), g.iter().map(Big::to_f64));
+    let is_finite = step.iter().all(|x| x.is_finite());
+    is_finite.then(|| exact(step.as_slice()))
+}
+
+/// A⁻¹ g by an inverse in floats, and what it leaves again and again. `None`: it does not come near enough.
+fn refined(within: f64, a: &Rows, inverse: &DMatrix<f64>, g: &[Big]) -> Option<Vec<Big>> {
+    let mut x = vec![Big::of(0.0); g.len()];
+    for _ in 0..IN_FLOATS {
+        let left = a.iter().zip(g).map(|(row, g)| g - dot(row, &x));
+        let step = times(inverse, &left.collect::<Vec<_>>())?;
+        let size = greatest(&step);
+        for (x, step) in x.iter_mut().zip(step) {
+            *x += step;
+        }
+        if size < Big::of(within) {
+            return Some(x);
+        }
     }
-    let row = |i: usize| (0..n).map(|j| &Big::of(inverse[(i, j)]) * &g[j]).sum();
-    Some((0..n).map(row).collect())
+    None
+}
+
+fn greatest(step: &[Big]) -> Big {
+    let sizes = step.iter().map(Big::abs);
+    sizes.fold(Big::of(0.0), Big::max)
 }
