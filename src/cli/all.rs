@@ -214,16 +214,19 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
     written &= pictures.write_page(|| complete_to_value(&problem, &result))?;
     let figures = || result.solutions.iter().map(placed);
     let either = result.symmetry == Symmetry::Isometries;
-    let conformers = skeleton.map(|skeleton| {
-        let solutions = result.solutions.iter();
-        let middles = solutions.map(|s| s.points.iter().map(|p| p.map(|x| x.mid())).collect());
-        let middles: Vec<Vec<[f64; 3]>> = middles.collect();
-        let conformers = skeleton.conformers(&middles, either);
-        (skeleton, conformers)
-    });
-    let mut seen = problem.clone();
-    seen.homotopy.reference.clone_from(&result.reference);
-    let many = arguments.many.of(&seen, &result.solutions);
+    let is_told = !arguments.quiet && !elsewhere;
+    let conformers = skeleton
+        .filter(|_| is_told || json.is_some())
+        .map(|skeleton| {
+            let solutions = result.solutions.iter();
+            let middles = solutions.map(|s| s.points.iter().map(|p| p.map(|x| x.mid())).collect());
+            let middles: Vec<Vec<[f64; 3]>> = middles.collect();
+            let conformers = skeleton.conformers(&middles, either);
+            (skeleton, conformers)
+        });
+    let many = arguments
+        .many
+        .of(&problem, &result.reference, &result.solutions);
     if let Some(json) = &json {
         let mut more = Map::new();
         if !measures.is_empty() {
@@ -236,22 +239,25 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
         if arguments.many.is_wanted() {
             more.insert("digits".to_owned(), digits_to_value(&problem, &many));
         }
-        let text = match complete_to_value(&problem, &result) {
-            Value::Object(mut all) if !more.is_empty() => {
-                all.append(&mut more);
-                Value::Object(all).to_string()
+        let text = match more.is_empty() {
+            true => complete_to_json(&problem, &result),
+            false => {
+                let mut all = complete_to_value(&problem, &result);
+                if let Value::Object(all) = &mut all {
+                    all.append(&mut more);
+                }
+                all.to_string()
             }
-            _ => complete_to_json(&problem, &result),
         };
         written &= json.write(&(text + "\n"));
     }
-    if !arguments.quiet && !elsewhere {
+    if is_told {
         let mut text = complete_to_table(&problem, &result);
         text += &measures.to_table("", figures());
         if let Some((skeleton, conformers)) = &conformers {
             text += &conformers_to_table(&problem, skeleton, conformers);
         }
-        text += &digits_to_table(&problem, &many);
+        text += &digits_to_table(&problem, 1, &many);
         let made = made.clause();
         if !made.is_empty() {
             text +=

@@ -21,18 +21,21 @@ impl ManyDigits {
         self.digits.is_some()
     }
 
-    /// Solutions whose points are seen from the problem's reference, each to so many digits or why it is not; none where that is not
+    /// Solutions whose points are seen from `reference`, each to so many digits or why it is not; none where that is not
     /// asked for.
     pub fn of<'s>(
         &self,
         problem: &Problem,
+        reference: &[usize],
         solutions: impl IntoIterator<Item = &'s Solution>,
     ) -> Vec<Result<Digits, String>> {
         let Some(digits) = self.digits else {
             return Vec::new();
         };
+        let mut seen = problem.clone();
+        seen.homotopy.reference = reference.to_vec();
         let all = solutions.into_iter();
-        all.map(|s| to_digits(problem, &s.points, &s.objects, digits))
+        all.map(|s| to_digits(&seen, &s.points, &s.objects, digits))
             .collect()
     }
 }

@@ -5,11 +5,10 @@ use crate::problem::Problem;
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
 
-/// What is said of the solutions of a list, numbered from 1, each to many digits or why it is not.
-pub fn digits_to_table(problem: &Problem, all: &[Result<Digits, String>]) -> String {
+/// What is said of the solutions of a list, of which the first one has the number `first`, each to many digits or why it is not.
+pub fn digits_to_table(problem: &Problem, first: usize, all: &[Result<Digits, String>]) -> String {
     let mut out = String::new();
-    for (k, one) in all.iter().enumerate() {
-        let number = k + 1;
+    for (number, one) in (first..).zip(all) {
         let found = match one {
             Ok(found) => found,
             Err(why) => {

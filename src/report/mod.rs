@@ -29,6 +29,7 @@ mod table;
 mod theorem;
 mod tolerance;
 
+#[cfg(feature = "cli")]
 pub(crate) use drawing::names;
 
 #[doc(inline)]

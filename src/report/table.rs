@@ -169,7 +169,7 @@ nearer to the figure wanted.";
 
 /// The same where the sketch seems to move with all its constraints kept.
 const IT_MOVES: &str = "\
-This says nothing about figures that are not on this path, such as those through which the sketch can be moved:
+This says nothing about figures that are not on this path, such as those through which the sketch seems to move, as floats have it:
 `krawl motion --free DIMENSION` follows these.";
 
 /// The number of classes of congruent solutions.

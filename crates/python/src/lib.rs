@@ -264,7 +264,7 @@ impl Session {
 
     /// Changes dimensions, given as `name=value`: JSON as of `krawl edit --json`.
     fn edit(&self, py: Python<'_>, settings: Vec<String>) -> PyResult<String> {
-        let edited = interruptible(py, |cancel: &_| -> PyResult<String> {
+        interruptible(py, |cancel: &_| -> PyResult<String> {
             let mut session = self.0.lock().map_err(bad)?;
             let settings = settings
                 .iter()
@@ -275,8 +275,7 @@ impl Session {
             let mut control = until(cancel);
             let edited = session.edit_with(&settings, &mut control);
             Ok(edit_to_json(session.problem(), &edited, session.moved()))
-        })?;
-        edited
+        })?
     }
 
     /// Drags points, given as `name=x,y`: JSON as of `krawl edit --json`.

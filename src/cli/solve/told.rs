@@ -248,6 +248,8 @@ impl Told<'_> {
             (true, None) => 0..0,
             _ => 0..outcome.solutions.len(),
         };
+        let reference = &problem.homotopy.reference;
+        let many = arguments.many.of(problem, reference, &outcome.solutions);
         let candidates = Candidates {
             count: match listed.is_empty() {
                 true => 0,
@@ -315,8 +317,11 @@ impl Told<'_> {
             };
             let measured =
                 measures.to_table(of, outcome.solutions[listed.clone()].iter().map(placed));
-            let solutions = &outcome.solutions[listed];
-            let many = digits_to_table(problem, &arguments.many.of(problem, solutions));
+            let many = digits_to_table(
+                problem,
+                listed.start + 1,
+                many.get(listed).unwrap_or_default(),
+            );
             let hints = hints(problem, &outcome, &name);
             let whole = arguments.whole_in_words(file);
             self.written &= output::print(&format!("{gap}{whole}{text}{measured}{many}{hints}"));
@@ -341,8 +346,10 @@ impl Told<'_> {
         if self.has_json {
             let figures = outcome.solutions.iter().map(placed);
             let measured = (!measures.is_empty()).then(|| measures.to_value(figures));
-            let many = arguments.many.of(problem, &outcome.solutions);
-            let many = (arguments.many.is_wanted()).then(|| digits_to_value(problem, &many));
+            let many = arguments
+                .many
+                .is_wanted()
+                .then(|| digits_to_value(problem, &many));
             self.lines += &(run.to_json_among(among, &alone, (measured, many)) + "\n");
         }
         Ok(cancel.load(Ordering::Relaxed))

@@ -134,11 +134,11 @@ pub fn surplus(problem: &Problem) -> Result<Census, String> {
         false => None,
     };
     // How much the right-hand side of an equation grows with its number, and by how much it may be off by the number's last digit.
-    let steepness = |row: usize| match distance(&problem, owners[row]) {
+    let steepest = |row: usize| match distance(&problem, owners[row]) {
         Some(length) => 2.0 * length,
         None => system.rows[row].steepness(&at).0 * scale(row) / unit,
     };
-    let slack = |row: usize| steepness(row) * digits_of(&problem, owners[row]);
+    let slack = |row: usize| steepest(row) * digits_of(&problem, owners[row]);
     let mut found: BTreeMap<usize, (Surplus, usize)> = BTreeMap::new();
     for (row, circuit) in circuits {
         if ranks[row] == OBJECT {
@@ -177,7 +177,7 @@ pub fn surplus(problem: &Problem) -> Result<Census, String> {
                 (None, rounded, rows)
             }
         };
-        let divisor = steepness(row);
+        let divisor = steepest(row);
         let most = ((slack(row) + rounded) / divisor).max(LEAST_PART * unit);
         let finding = match (identity, &figure) {
             (Some((true, _)), _) => Finding::Follows,

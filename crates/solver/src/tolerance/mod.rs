@@ -141,18 +141,26 @@ pub fn study(
             "it is not proved that there is one figure for every choice of the dimensions: it may flip or come apart within the limits; {with}"
         ));
     };
+    let figure = within.figure();
+    let dimensions = problem.dimensions();
+    let dimensions = dimensions.filter_map(|index| Some((index, in_place(problem, index)?)));
+    let dimensions: Vec<(usize, Quantity)> = dimensions.collect();
     let measured = quantities
         .into_iter()
         .map(|quantity| {
-            let near = quantity.of(&within.figure()).mid();
-            let own = own_limits(problem, limits, &quantity, near);
-            measure(&mut within, &quantity, own, control)
+            let nominal = quantity.of(&figure);
+            let mut each = dimensions.iter();
+            let itself = each.find(|(_, other)| other.is_same_measure(&quantity));
+            let own = itself.and_then(|&(index, _)| {
+                own_limits(problem, limits, index, (&quantity, nominal.mid()))
+            });
+            measure(&mut within, (&quantity, nominal), own, control)
         })
         .collect::<Result<_, _>>()?;
     Ok(Study {
         limits: limits.to_vec(),
         account: within.account(),
-        figure: within.figure(),
+        figure,
         bands: within.boxes(),
         measured,
     })
@@ -274,18 +282,13 @@ fn scaled(problem: &Problem, limits: &[Limits], k: u32) -> Option<Vec<Limits>> {
 }
 
 /// Between which values something measured is that is a dimension itself, of turns and torsions as many whole turns away as is measured
-/// (`near`); `None`: it is no dimension, or its value is a square.
+/// (`near`); `None`: its value is a square.
 fn own_limits(
     problem: &Problem,
     limits: &[Limits],
-    quantity: &Quantity,
-    near: f64,
+    index: usize,
+    (quantity, near): (&Quantity, f64),
 ) -> Option<[Interval; 2]> {
-    let is_it = |&index: &usize| {
-        let measured = in_place(problem, index);
-        measured.is_some_and(|other| other.is_same_measure(quantity))
-    };
-    let index = problem.dimensions().find(is_it)?;
     let limits = limits.iter().find(|one| one.index == index);
     let values = match limits {
         Some(one) => one.values.clone(),
@@ -303,11 +306,10 @@ fn own_limits(
 
 fn measure(
     within: &mut Within,
-    quantity: &Quantity,
+    (quantity, nominal): (&Quantity, Interval),
     own: Option<[Interval; 2]>,
     control: &mut Control,
 ) -> Result<Measured, String> {
-    let nominal = quantity.of(&within.figure());
     let middle = quantity.key(|p| within.middle(p), 0.0);
     let (change, effects) = within.change(&slopes(within, quantity, middle.mid()));
     let all = middle + change;
