@@ -4,13 +4,18 @@ use super::measured::Measured;
 use super::output::{self, Destination, beside};
 use super::pictures::Pictures;
 use super::{BAD_INPUT, CLOSED, STOPPED, input, interrupt};
-use krawl::problem::Decimal;
+use krawl::blocks::Account;
+use krawl::complete::{self, Progress};
+use krawl::edit::Limits;
+use krawl::problem::{Decimal, Problem};
 use krawl::report::{
+    ProgressLine, tolerance_set_in_words, tolerance_set_to_table, tolerance_set_to_value,
     tolerances_in_words, tolerances_to_csv, tolerances_to_table, tolerances_to_value,
 };
-use krawl::tolerance::{limits, study};
+use krawl::tolerance::{limits, study, study_all};
 use krawl::track::Options;
 use std::path::PathBuf;
+use std::time::Instant;
 
 /// Every dimension within its limits: between which bounds lengths, angles and areas then are, with proof
 ///
@@ -23,12 +28,21 @@ Examples:
   krawl tolerance docs/examples/plate.toml --default 0.1 --tolerance C-D=-0.2,0.5 --measure D-A --measure \"angle B C D\"
   krawl tolerance docs/examples/plate.toml --default 0.1 --html plate.html    the band in which each point stays
   krawl tolerance docs/examples/platform.toml --default 0.1 --csv platform.csv
+  krawl tolerance docs/examples/platform.toml --default 0.1 --all    each figure that the legs allow, and no other
 
-Exit codes: 0 proved, 1 interrupted, 2 bad input, or limits for which it is not proved that there is one figure for each choice, or results that could not be
+Exit codes: 0 proved, 1 interrupted, or of --all not all decided, 2 bad input, or limits for which it is not proved that there is one figure for each choice, or results that could not be
 written.")]
 pub struct Arguments {
     #[command(flatten)]
     source: input::Source,
+    /// Look for every figure that meets the dimensions, not the one drawn alone
+    ///
+    /// With a proof that no choice of the dimensions has another one, and what is measured of each; signs that are asked for are not looked at
+    #[arg(long, conflicts_with = "csv")]
+    all: bool,
+    /// Threads for --all [default: one per processor]; the answer does not depend on it
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024), requires = "all", hide_short_help = true)]
+    threads: Option<u16>,
     /// The tolerance of all lengths and radii that have none of their own
     ///
     /// 0.1, or so far down and up, -0.2,0.1
@@ -78,6 +92,15 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
     arguments.measured.of_points(&problem)?;
     let in_file = |error: String| format!("{shown}: {error}");
     let limits = limits(&problem, &named, default.as_ref()).map_err(in_file)?;
+    if arguments.all {
+        if !pictures.is_empty() {
+            return Err(
+                "pictures are of the figure drawn, and not of all: leave out --all or them"
+                    .to_owned(),
+            );
+        }
+        return run_all(arguments, (&problem, &made), &limits, json.as_ref());
+    }
     let mut control = interrupt::control();
     let study = study(
         &problem,
@@ -108,6 +131,45 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
         written &= output::print(&tolerances_to_table(&problem, &study));
     }
     Ok(if written { CLOSED } else { BAD_INPUT })
+}
+
+/// Looks for every figure.
+fn run_all(
+    arguments: &Arguments,
+    (problem, made): (&Problem, &Account),
+    limits: &[Limits],
+    json: Option<&Destination>,
+) -> Result<u8, String> {
+    let mut control = interrupt::control();
+    let line = ProgressLine::new(!arguments.quiet, "");
+    let begin = Instant::now();
+    let tell = |now: Progress| line.show_search(now, begin.elapsed().as_secs_f64());
+    let search = complete::Options {
+        cancel: Some(interrupt::flag()),
+        threads: arguments.threads.unwrap_or(0).into(),
+        progress: Some(&tell),
+        ..complete::Options::default()
+    };
+    let texts = arguments.measured.texts(problem);
+    let options = (&Options::certified(), &search);
+    let set = study_all(problem, limits, &texts, options, &mut control);
+    line.clear();
+    let mut set = set.map_err(|error| format!("{}: {error}", arguments.source.file.display()))?;
+    set.account.join(made);
+    let mut written = true;
+    if let Some(json) = json {
+        written &= json.write(&format!("{}\n", tolerance_set_to_value(problem, &set)));
+    }
+    if !arguments.quiet && json == Some(&Destination::StandardOutput) {
+        output::complain(&tolerance_set_in_words(problem, &set));
+    } else if !arguments.quiet {
+        written &= output::print(&tolerance_set_to_table(problem, &set));
+    }
+    Ok(match written {
+        false => BAD_INPUT,
+        true if set.undecided.is_empty() => CLOSED,
+        true => STOPPED,
+    })
 }
 
 /// How far down and up: `0.1` is both.

@@ -221,7 +221,7 @@ struct Undecided {
     share: f64,
 }
 
-fn why(why: Why) -> &'static str {
+pub(super) fn why(why: Why) -> &'static str {
     match why {
         Why::Flexible => "a curve of solutions seems to go through here",
         Why::Small => "a solution that is singular or nearly so, or centres of a step in line",
@@ -597,7 +597,7 @@ pub(super) fn counted_or_many(count: Option<u64>, what: &str) -> String {
 }
 
 /// Up to what figures are counted once, and what is proved of any two then.
-fn counted_once(problem: &Problem, symmetry: Symmetry) -> (&'static str, &'static str) {
+pub(super) fn counted_once(problem: &Problem, symmetry: Symmetry) -> (&'static str, &'static str) {
     let of_numbers = |object: &Object| matches!(object.shape, Shape::Number { .. });
     let has_numbers = problem.objects.iter().any(of_numbers);
     match symmetry {

@@ -73,7 +73,8 @@ pub use table::{
 };
 pub use theorem::theorem;
 pub use tolerance::{
-    tolerances_in_words, tolerances_to_csv, tolerances_to_table, tolerances_to_value,
+    tolerance_set_in_words, tolerance_set_to_table, tolerance_set_to_value, tolerances_in_words,
+    tolerances_to_csv, tolerances_to_table, tolerances_to_value,
 };
 
 #[cfg(test)]

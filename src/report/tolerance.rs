@@ -1,12 +1,15 @@
 //! What tolerances do to a figure, for people and for programs.
 
 use super::certain_digits;
+use super::complete::{counted_once, why};
 use super::drawing::Drawing;
 use super::edit::{bounds, points_to_value};
 use super::sweep::quoted;
+use crate::complete::Why;
+use crate::edit::Limits;
 use crate::order::InOrder;
 use crate::problem::{Problem, counted};
-use crate::tolerance::{Measured, Study};
+use crate::tolerance::{Measured, Set, Study};
 use serde_json::{Value, json};
 use std::fmt::Write;
 
@@ -15,25 +18,129 @@ pub fn tolerances_in_words(problem: &Problem, study: &Study) -> String {
     format!(
         "{}: for every choice of {} within its limits, all of them together, there is exactly one figure that the one drawn becomes, proved{}",
         problem.name,
-        match study.limits.len() {
-            1 => "the dimension".to_owned(),
-            n => format!("the {}", counted(n, "dimension")),
-        },
+        dimensions(&study.limits),
         study.account.clause_behind()
     )
 }
 
+/// The dimensions that have limits, counted.
+fn dimensions(limits: &[Limits]) -> String {
+    match limits.len() {
+        1 => "the dimension".to_owned(),
+        n => format!("the {}", counted(n, "dimension")),
+    }
+}
+
 /// The study as text: for each measure its bounds, and what each dimension has to do with it.
 pub fn tolerances_to_table(problem: &Problem, study: &Study) -> String {
-    let mut out = tolerances_in_words(problem, study) + ".\n";
+    let measured = measured_to_table(problem, study);
+    format!(
+        "{}.\n{measured}\n{WHAT_IS_PROVED}",
+        tolerances_in_words(problem, study)
+    )
+}
+
+const WHAT_IS_PROVED: &str = "\
+No choice goes beyond a worst case, proved, and the figure at a corner of the limits comes as near to it as is said. The rest is to first order, \
+in floats: what a dimension does alone as it goes through its limits, and the root of the sum of the squares of half of that, which is a \
+tolerance if the dimensions are independent.
+";
+
+fn measured_to_table(problem: &Problem, study: &Study) -> String {
+    let mut out = String::new();
     for measured in &study.measured {
         // Writing to a string cannot fail.
         let _ = write_measured(&mut out, problem, study, measured);
     }
-    out += "\nNo choice goes beyond a worst case, proved, and the figure at a corner of the limits comes as near to it as is said. The rest \
-            is to first order, in floats: what a dimension does alone as it goes through its limits, and the root of the sum of the squares of \
-            half of that, which is a tolerance if the dimensions are independent.\n";
     out
+}
+
+/// What is proved of all figures, a sentence.
+pub fn tolerance_set_in_words(problem: &Problem, set: &Set) -> String {
+    let (up_to, _) = counted_once(problem, set.symmetry);
+    let is_all = set.undecided.is_empty();
+    let figures = match set.figures.len() {
+        0 if is_all => "there is no figure, proved".to_owned(),
+        0 => "it is not decided which figures there are".to_owned(),
+        n => format!(
+            "there {} {} {}{up_to}, proved",
+            if n == 1 { "is" } else { "are" },
+            if is_all { "exactly" } else { "at least" },
+            counted(n, "figure")
+        ),
+    };
+    format!(
+        "{}: for every choice of {} within {} limits, all of them together, {figures}{}",
+        problem.name,
+        dimensions(&set.limits),
+        if set.limits.len() == 1 {
+            "its"
+        } else {
+            "their"
+        },
+        set.account.clause_behind()
+    )
+}
+
+/// All figures as text: of each the bounds of what is measured, and what each dimension has to do with it.
+pub fn tolerance_set_to_table(problem: &Problem, set: &Set) -> String {
+    let mut out = tolerance_set_in_words(problem, set) + ".\n";
+    for part in &set.undecided {
+        let parts = counted(part.count as usize, "part");
+        out += &format!(
+            "  undecided: {parts} of the space: {}\n",
+            why_within(part.why)
+        );
+    }
+    if !set.undecided.is_empty() {
+        out += "With narrower limits more is decided.\n";
+    }
+    for (number, figure) in (1..).zip(&set.figures) {
+        out += &match &figure.study {
+            Ok(study) => format!("\nFigure {number}\n{}", measured_to_table(problem, study)),
+            Err(why) => format!("\nFigure {number}: {why}.\n"),
+        };
+    }
+    if set.figures.iter().any(|figure| figure.study.is_ok()) {
+        out += &format!("\n{WHAT_IS_PROVED}");
+    }
+    out
+}
+
+/// Why it is not decided what figures there are, for some choices of dimensions.
+fn why_within(reason: Why) -> &'static str {
+    match reason {
+        Why::Small => {
+            "figures may come together or vanish there for some choices, or the limits are too wide for a proof"
+        }
+        other => why(other),
+    }
+}
+
+/// All figures as a value in memory, as `krawl tolerance --all --json` writes it (docs/using/cad.md).
+pub fn tolerance_set_to_value(problem: &Problem, set: &Set) -> Value {
+    let figures = set.figures.iter().map(|figure| {
+        let bands = points_to_value(problem, &figure.bands);
+        match &figure.study {
+            Ok(study) => json!({
+                "bands": bands,
+                "figure": points_to_value(problem, &study.figure),
+                "measured": measured_to_value(study),
+            }),
+            Err(why) => json!({"bands": bands, "reason": why}),
+        }
+    });
+    let undecided = set.undecided.iter().map(
+        |part| json!({"reason": why_within(part.why), "parts": part.count, "share": part.share}),
+    );
+    Drawing::in_place("tolerance", problem).with(json!({
+        "status": if set.undecided.is_empty() { "complete" } else { "partial" },
+        "words": tolerance_set_in_words(problem, set),
+        "account": set.account,
+        "limits": limits_to_value(problem, &set.limits),
+        "undecided": undecided.collect::<Vec<_>>(),
+        "figures": figures.collect::<Vec<_>>(),
+    }))
 }
 
 fn write_measured(
@@ -129,10 +236,26 @@ pub(super) fn rounded(x: f64, to: impl Fn(f64) -> f64) -> String {
 
 /// The study as a value in memory, as `krawl tolerance --json` writes it (docs/using/cad.md).
 pub fn tolerances_to_value(problem: &Problem, study: &Study) -> Value {
-    let limits = study.limits.iter().map(|limits| {
+    Drawing::in_place("tolerance", problem).with(json!({
+        "status": "proved",
+        "words": tolerances_in_words(problem, study),
+        "account": study.account,
+        "limits": limits_to_value(problem, &study.limits),
+        "figure": points_to_value(problem, &study.figure),
+        "bands": points_to_value(problem, &study.bands),
+        "measured": measured_to_value(study),
+    }))
+}
+
+fn limits_to_value(problem: &Problem, limits: &[Limits]) -> Vec<Value> {
+    let limits = limits.iter().map(|limits| {
         let [low, high] = &limits.values;
         json!({"name": problem.dimension_name(limits.index), "constraint": limits.index, "least": low.to_string(), "greatest": high.to_string()})
     });
+    limits.collect()
+}
+
+fn measured_to_value(study: &Study) -> Vec<Value> {
     let measured = study.measured.iter().map(|measured| {
         let [low, high] = measured.bounds;
         json!({
@@ -146,15 +269,7 @@ pub fn tolerances_to_value(problem: &Problem, study: &Study) -> Value {
             "effects": measured.effects,
         })
     });
-    Drawing::in_place("tolerance", problem).with(json!({
-        "status": "proved",
-        "words": tolerances_in_words(problem, study),
-        "account": study.account,
-        "limits": limits.collect::<Vec<_>>(),
-        "figure": points_to_value(problem, &study.figure),
-        "bands": points_to_value(problem, &study.bands),
-        "measured": measured.collect::<Vec<_>>(),
-    }))
+    measured.collect()
 }
 
 /// The study as CSV: for each measure its value, its worst cases (outer ends, as floats), the root of the sum of the squares, and by how much

@@ -103,6 +103,11 @@ fn results_of_other_verbs_meet_their_schemas() {
             &["tolerance", plate, "--default", "0.1"],
         ),
         (
+            "tolerance",
+            "complete",
+            &["tolerance", plate, "--default", "0.1", "--all"],
+        ),
+        (
             "motion",
             "closed",
             &[

@@ -23,4 +23,5 @@ mod more_than_square;
 mod poses;
 mod sides;
 mod signs;
+mod tolerances;
 mod torsions;

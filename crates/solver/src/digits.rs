@@ -65,7 +65,8 @@ pub fn to_digits(
         Err(_) => Err(NOT_SQUARE.to_owned()),
     };
     let homotopy = square(problem)?;
-    let drawn = square(&drawn(problem, points, objects)?)?;
+    let sketch = points.iter().map(|at| at.map(middle));
+    let drawn = square(&drawn(problem, sketch, objects)?)?;
     if drawn.equations != homotopy.equations {
         return Err("the solution is a special figure, with other equations".to_owned());
     }
@@ -168,24 +169,25 @@ fn to_all_digits(
     }
 }
 
+/// The middle of a range, as it is written.
+pub(crate) fn middle(x: Interval) -> Decimal {
+    Decimal::shortest(x.mid()).unwrap_or(Decimal::from(0))
+}
+
 /// The problem drawn as a solution, for where its unknowns are about.
-fn drawn(
+pub(crate) fn drawn(
     problem: &Problem,
-    points: &[[Interval; 3]],
+    points: impl Iterator<Item = [Decimal; 3]>,
     objects: &[Located],
 ) -> Result<Problem, String> {
-    let decimal = |x: f64| -> Decimal {
-        let text = format!("{x:e}");
-        text.parse().expect("floats are decimals")
-    };
     let mut drawn = problem.clone();
     for (point, at) in drawn.points.iter_mut().zip(points) {
-        point.sketch = at.map(|x| decimal(x.mid()));
+        point.sketch = at;
     }
     for (object, located) in drawn.objects.iter_mut().zip(objects) {
         match (&mut object.shape, located.number()) {
-            (Shape::Number { sketch }, Some(number)) => *sketch = decimal(number.mid()),
-            (Shape::Round { radius, .. }, Some(number)) => *radius = decimal(number.mid()),
+            (Shape::Number { sketch }, Some(number)) => *sketch = middle(number),
+            (Shape::Round { radius, .. }, Some(number)) => *radius = middle(number),
             // What is told by points.
             (Shape::Line(_) | Shape::Plane(_) | Shape::Arc { .. }, _) => {}
             (Shape::Body { place: None, .. }, _) => {}

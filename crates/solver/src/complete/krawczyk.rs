@@ -51,6 +51,28 @@ pub fn alone([q0, kappa, step]: [f64; 3], most: f64) -> Option<[f64; 2]> {
     (q < 1.0 && radius < 0.1 * alone).then_some([radius, alone])
 }
 
+/// The same where F is anywhere in a range, for every F there: the zero's box may be nearly as wide as where it is alone.
+///
+/// With q = q₀ + κ r and ‖Y F(x)‖/(1 − q) ≤ r the ball of radius r is mapped into itself, contracting; r is sought from ‖Y F(x)‖ up.
+pub fn alone_within([q0, kappa, step]: [f64; 3], most: f64) -> Option<[f64; 2]> {
+    const ROUNDS: usize = 20;
+    let [_, alone] = alone([q0, kappa, 0.0], most)?;
+    let mut radius = step;
+    for _ in 0..ROUNDS {
+        // Made wider, so that rounds come to an end.
+        let wide = round_up(1.01 * radius, 2);
+        let q = round_up(q0 + kappa * wide, 4);
+        if !(q < 1.0 && wide < alone) {
+            return None;
+        }
+        radius = round_up(step / (1.0 - q), 8);
+        if radius <= wide {
+            return Some([radius, alone]);
+        }
+    }
+    None
+}
+
 impl Prover {
     /// For the base of a plan.
     pub fn new(targets: &Targets, plan: &Plan) -> Self {

@@ -52,6 +52,7 @@ mod visit;
 use crate::order::InOrder;
 pub use among::{Among, among};
 pub use coordinates::has_equations_to_spare;
+pub(crate) use coordinates::ranged;
 pub use outcome::{
     Choice, Complete, Constructed, Method, Options, Part, Progress, Status, Unserved,
 };

@@ -67,7 +67,7 @@ pub use setting::{Setting, SettingError};
 pub use sweep::{Frame, Sweep};
 pub use whole_turn::{Asked, with_turns_of};
 pub use within::Limits;
-pub(crate) use within::Within;
+pub(crate) use within::{Limited, Within};
 pub use write::{WriteError, rewrite};
 
 use crate::blocks::in_words;

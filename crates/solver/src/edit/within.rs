@@ -22,10 +22,19 @@ pub struct Limits {
     pub values: [Decimal; 2],
 }
 
-/// All figures that a figure becomes as its dimensions go through their limits.
-pub(crate) struct Within {
+/// A figure and its equations, of which dimensions are anywhere within limits.
+pub(crate) struct Limited {
     whole: Whole,
     limits: Vec<Limits>,
+    /// Over all choices of the dimensions, the right-hand sides.
+    rights: Vec<Interval>,
+    /// For each of the limits by how much each right-hand side grows from the least value to the greatest.
+    growth: Vec<Vec<f64>>,
+}
+
+/// All figures that a figure becomes as its dimensions go through their limits.
+pub(crate) struct Within {
+    limited: Limited,
     /// The middle of the figure with the dimensions as they are given, one entry per unknown, in the homotopy's unit.
     centre: Vec<f64>,
     /// Where each unknown of all these figures is, as seen from there.
@@ -36,25 +45,22 @@ pub(crate) struct Within {
     inverse: Vec<f64>,
     /// What the equations miss in the middle, for all choices.
     missed: Vec<Interval>,
-    /// For each of the limits by how much each right-hand side grows from the least value to the greatest.
-    growth: Vec<Vec<f64>>,
 }
 
 /// Krawczyk's test is tried with so many radii, each what the one before came to.
 const ROUNDS: usize = 12;
 
-impl Within {
-    /// Takes the sketch of a checked problem for the figure, as [`super::Session`] does, and proves that for every choice of values within
-    /// the limits there is exactly one figure near it, which its dimensions lead to. `None`: that is not proved.
+impl Limited {
+    /// Takes the sketch of a checked problem for the figure, as [`super::Session`] does.
     ///
     /// Limits are those of distances between points and of constraints of which the right-hand side of each equation grows with the
     /// value, or falls, and is that of no other dimension ([`try_lower_apart`]).
-    pub fn new(
+    pub fn open(
         problem: &Problem,
         limits: &[Limits],
         options: &Options,
         control: &mut Control,
-    ) -> Result<Option<Self>, OpenError> {
+    ) -> Result<Self, OpenError> {
         let mut whole = Whole::open_lowered(problem, try_lower_apart, options, control)?;
         let mut rights = rights(whole.homotopy());
         let mut growth = Vec::new();
@@ -86,8 +92,51 @@ impl Within {
                 }
             }
         }
-        let homotopy = whole.homotopy();
-        let centre = whole.first().centre.clone();
+        Ok(Limited {
+            whole,
+            limits: limits.to_vec(),
+            rights,
+            growth,
+        })
+    }
+
+    /// Whether other equations are the same, with the same ranges.
+    pub fn is_same(&self, other: &Limited) -> bool {
+        let (one, two) = (self.whole.homotopy(), other.whole.homotopy());
+        let mut rows = 0..one.equations;
+        (one.equations, one.unit, &self.rights) == (two.equations, two.unit, &other.rights)
+            && rows.all(|e| one.terms(e) == two.terms(e))
+    }
+
+    /// The equations with the ranges of their right-hand sides at t = 1.
+    pub fn ranges(&self) -> Homotopy {
+        let mut homotopy = self.whole.homotopy().clone();
+        for (right, &range) in homotopy.rights.iter_mut().zip(&self.rights) {
+            *right = right.clone().within(range);
+        }
+        homotopy
+    }
+
+    /// What is proved of its figures.
+    pub fn account(&self) -> Account {
+        self.whole.scope()
+    }
+
+    /// Where an unknown is in the figure with the dimensions as they are given, in the homotopy's unit.
+    pub fn nominal(&self, i: usize) -> Interval {
+        self.whole.first().enclosure(i)
+    }
+
+    /// A figure in the gauge, in lengths of the problem, in the coordinates of the problem.
+    pub fn put(&self, places: &[[Interval; 3]]) -> Vec<[Interval; 3]> {
+        self.whole.put(places)
+    }
+
+    /// Proves that for every choice of values within the limits there is exactly one figure near the one with the dimensions as they are given,
+    /// which these lead to. `None`: that is not proved.
+    pub fn prove(self) -> Option<Within> {
+        let (homotopy, rights) = (self.whole.homotopy(), &self.rights);
+        let centre = self.whole.first().centre.clone();
         let at = |i: usize| point(centre[i]);
         let missed: Vec<Interval> = (0..rights.len())
             .map(|e| homotopy.left_side(e, at) - rights[e])
@@ -100,7 +149,7 @@ impl Within {
             }
         }
         if !invert(&mut inverse, m) || inverse.iter().any(|x| !x.is_finite()) {
-            return Ok(None);
+            return None;
         }
         let row = |i: usize| &inverse[i * m..(i + 1) * m];
         let linear: Vec<Interval> = (0..m)
@@ -142,21 +191,21 @@ impl Within {
         }
         // Beyond, equations have zeros that are no figures.
         let proved = proved.filter(|(around, _)| homotopy.is_proper_over(|i| at(i) + around[i]));
-        Ok(proved.map(|(around, rest)| Within {
-            limits: limits.to_vec(),
+        proved.map(|(around, rest)| Within {
             centre,
             around,
             rest,
             inverse,
             missed,
-            growth,
-            whole,
-        }))
+            limited: self,
+        })
     }
+}
 
+impl Within {
     /// The equations' homotopy.
     pub fn homotopy(&self) -> &Homotopy {
-        self.whole.homotopy()
+        self.limited.whole.homotopy()
     }
 
     /// A point of the figure with the dimensions as they are given, about: in the gauge, in lengths of the problem.
@@ -180,17 +229,17 @@ impl Within {
     pub fn boxes(&self) -> Vec<[Interval; 3]> {
         let places = (0..self.homotopy().points)
             .map(|p| self.at(p, |i| point(self.centre[i]) + self.around[i]));
-        self.whole.put(&places.collect::<Vec<_>>())
+        self.limited.put(&places.collect::<Vec<_>>())
     }
 
     /// What is proved of its figures.
     pub fn account(&self) -> Account {
-        self.whole.scope()
+        self.limited.account()
     }
 
     /// The figure with the dimensions as they are given.
     pub fn figure(&self) -> Vec<[Interval; 3]> {
-        self.whole.points()
+        self.limited.whole.points()
     }
 
     /// By how much something changes over all figures, as seen from the middle, of which these are the derivatives by the unknowns that it
@@ -209,7 +258,7 @@ impl Within {
             let middle = point(slope.mid());
             middle * self.rest[i] + (slope - middle) * self.around[i]
         }));
-        let effects = self.growth.iter().map(|growth| {
+        let effects = self.limited.growth.iter().map(|growth| {
             let effect = weights.iter().zip(growth).map(|(w, grown)| w.mid() * grown);
             effect.sum()
         });
@@ -222,14 +271,14 @@ impl Within {
         greatest: impl Fn(usize) -> bool,
         control: &mut Control,
     ) -> Option<Vec<[Interval; 3]>> {
-        let limits = self.limits.iter().enumerate();
+        let limits = self.limited.limits.iter().enumerate();
         let settings: Vec<Setting> = limits
             .map(|(k, one)| Setting {
                 index: one.index,
                 target: Target::Length(one.values[usize::from(greatest(k))].clone()),
             })
             .collect();
-        let edited = self.whole.probe(&settings, control);
+        let edited = self.limited.whole.probe(&settings, control);
         match edited {
             Edited {
                 ending: Ending::Reached,

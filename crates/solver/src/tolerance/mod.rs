@@ -29,8 +29,12 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod set;
+
+pub use set::{OfSet, Set, study_all};
+
 use crate::blocks::Account;
-use crate::edit::{Limits, Setting, Within};
+use crate::edit::{Limited, Limits, Setting, Within};
 use crate::interval::along::Along;
 use crate::interval::{Interval, enclose_rational, hull, point};
 use crate::motion::{in_place, lengths};
@@ -103,6 +107,35 @@ pub fn study(
     options: &Options,
     control: &mut Control,
 ) -> Result<Study, String> {
+    let quantities = checked(problem, limits, asked)?;
+    let open = |limits: &[Limits], control: &mut Control| {
+        let limited = Limited::open(problem, limits, options, control);
+        limited
+            .map(Limited::prove)
+            .map_err(|error| error.to_string())
+    };
+    let Some(within) = open(limits, control)? else {
+        let part = (1..=10).find_map(|k| {
+            let part = scaled(problem, limits, k)?;
+            matches!(open(&part, control), Ok(Some(_))).then_some(1u32 << k)
+        });
+        let with = match part {
+            Some(part) => format!("with limits {part} times as narrow it is proved"),
+            None => "nor is it with limits a thousand times as narrow: the figure is at a limit of its dimensions, or near one".to_owned(),
+        };
+        return Err(format!(
+            "it is not proved that there is one figure for every choice of the dimensions: it may flip or come apart within the limits; {with}"
+        ));
+    };
+    studied(problem, limits, within, &quantities, control)
+}
+
+/// What is to be measured, by default the longest lengths that no distance gives; and whether limits make sense.
+fn checked(
+    problem: &Problem,
+    limits: &[Limits],
+    asked: &[String],
+) -> Result<Vec<Quantity>, String> {
     let quantities = asked.iter().map(|text| Quantity::parse(problem, text));
     let mut quantities = quantities.collect::<Result<Vec<_>, _>>()?;
     if asked.is_empty() {
@@ -125,36 +158,31 @@ pub fn study(
             moved.name
         ));
     }
-    let open = |limits: &[Limits], control: &mut Control| {
-        Within::new(problem, limits, options, control).map_err(|error| error.to_string())
-    };
-    let Some(mut within) = open(limits, control)? else {
-        let part = (1..=10).find_map(|k| {
-            let part = scaled(problem, limits, k)?;
-            matches!(open(&part, control), Ok(Some(_))).then_some(1u32 << k)
-        });
-        let with = match part {
-            Some(part) => format!("with limits {part} times as narrow it is proved"),
-            None => "nor is it with limits a thousand times as narrow: the figure is at a limit of its dimensions, or near one".to_owned(),
-        };
-        return Err(format!(
-            "it is not proved that there is one figure for every choice of the dimensions: it may flip or come apart within the limits; {with}"
-        ));
-    };
+    Ok(quantities)
+}
+
+/// What is measured of a figure for every choice of its dimensions.
+fn studied(
+    problem: &Problem,
+    limits: &[Limits],
+    mut within: Within,
+    quantities: &[Quantity],
+    control: &mut Control,
+) -> Result<Study, String> {
     let figure = within.figure();
     let dimensions = problem.dimensions();
     let dimensions = dimensions.filter_map(|index| Some((index, in_place(problem, index)?)));
     let dimensions: Vec<(usize, Quantity)> = dimensions.collect();
     let measured = quantities
-        .into_iter()
+        .iter()
         .map(|quantity| {
             let nominal = quantity.of(&figure);
             let mut each = dimensions.iter();
-            let itself = each.find(|(_, other)| other.is_same_measure(&quantity));
+            let itself = each.find(|(_, other)| other.is_same_measure(quantity));
             let own = itself.and_then(|&(index, _)| {
-                own_limits(problem, limits, index, (&quantity, nominal.mid()))
+                own_limits(problem, limits, index, (quantity, nominal.mid()))
             });
-            measure(&mut within, (&quantity, nominal), own, control)
+            measure(&mut within, (quantity, nominal), own, control)
         })
         .collect::<Result<_, _>>()?;
     Ok(Study {

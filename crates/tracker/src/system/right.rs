@@ -105,6 +105,12 @@ impl Right {
         self.target
     }
 
+    /// The same with a range in place of the enclosure of E(1): what is proved with [`Right::at_target`] holds for every number in the range.
+    pub fn within(mut self, range: Interval) -> Self {
+        self.target = range;
+        self
+    }
+
     /// The coefficients in double-doubles, with their errors.
     pub fn doubles(&self) -> [Approximate; MAX_DEGREE + 1] {
         match &self.exact {

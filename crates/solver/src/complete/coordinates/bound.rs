@@ -114,6 +114,7 @@ mod tests {
             rows: rows.iter().collect(),
             own: vec![0, 1, 2],
             place,
+            has_ranges: false,
         };
         let found = bounds(&square, &x).unwrap();
         assert!(found.iter().all(|x| x.mag() < 1000.0), "{found:?}");

@@ -20,6 +20,8 @@ pub struct Square<'a> {
     pub own: Vec<usize>,
     /// For each entry its place among the unknowns, or [`KNOWN`].
     pub place: Vec<usize>,
+    /// Whether numbers are anywhere in ranges: a zero's box is then as wide as they make it, and nearly as wide as where it is alone.
+    pub has_ranges: bool,
 }
 
 /// An entry that is no unknown of the block.
@@ -34,6 +36,9 @@ pub struct Zero {
     pub radius: f64,
     /// No other zero is within this of the middle in every unknown.
     pub alone: f64,
+    /// Where numbers are anywhere in ranges: the unit that both are in, unknown by unknown. Otherwise none: all are in the same.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub scale: Vec<f64>,
 }
 
 impl Square<'_> {
@@ -63,7 +68,7 @@ impl Square<'_> {
     }
 
     /// The Jacobian in intervals, row by row.
-    fn derivatives(&self, at: &[Interval]) -> Vec<Interval> {
+    pub(super) fn derivatives(&self, at: &[Interval]) -> Vec<Interval> {
         let n = self.size();
         let mut out = vec![ZERO; n * n];
         for (e, row) in self.rows.iter().enumerate() {
@@ -77,7 +82,7 @@ impl Square<'_> {
     }
 
     /// The box with its unknowns replaced.
-    fn with(&self, x: &[Interval], own: impl Fn(usize) -> Interval) -> Vec<Interval> {
+    pub(super) fn with(&self, x: &[Interval], own: impl Fn(usize) -> Interval) -> Vec<Interval> {
         let mut at = x.to_vec();
         for (k, &u) in self.own.iter().enumerate() {
             at[u] = own(k);
@@ -180,7 +185,10 @@ impl Square<'_> {
             return None;
         }
         let y = self.inverse(&self.floats(x, &own))?;
-        self.test(x, own, &y)
+        match self.has_ranges {
+            true => self.test_in_ranges(x, own, &y),
+            false => self.test(x, own, &y),
+        }
     }
 
     fn test(&self, x: &[Interval], own: Vec<f64>, y: &[f64]) -> Option<Zero> {
@@ -228,6 +236,7 @@ impl Square<'_> {
             centre: own,
             radius,
             alone,
+            scale: Vec::new(),
         })
     }
 
@@ -247,10 +256,8 @@ impl Square<'_> {
 
     /// Whether a zero is the only one that the box may hold: all of the box lies where it is alone.
     pub fn is_alone(&self, zero: &Zero, x: &[Interval]) -> bool {
-        let pairs = self.own.iter().zip(&zero.centre);
-        pairs
-            .into_iter()
-            .all(|(&u, &c)| (x[u] - point(c)).mag() < zero.alone)
+        let mut own = self.own.iter().enumerate();
+        own.all(|(k, &u)| (x[u] - point(zero.centre[k])).mag() < zero.alone_in(k))
     }
 
     /// A direction in which a curve of zeros goes on from near the middle of a box, as floats see it: Newton's method with a
@@ -295,7 +302,17 @@ impl Square<'_> {
 impl Zero {
     /// The range of an unknown.
     pub fn range(&self, k: usize) -> Interval {
-        around(self.centre[k], self.radius)
+        around(self.centre[k], self.radius_in(k))
+    }
+
+    fn radius_in(&self, k: usize) -> f64 {
+        let scaled = |s: &f64| round_up(self.radius * s, 2);
+        self.scale.get(k).map_or(self.radius, scaled)
+    }
+
+    fn alone_in(&self, k: usize) -> f64 {
+        let scaled = |s: &f64| (point(self.alone) * point(*s)).inf();
+        self.scale.get(k).map_or(self.alone, scaled)
     }
 
     /// An order that does not depend on who found them: by their middles, unknown by unknown.
@@ -305,15 +322,13 @@ impl Zero {
         order.find(|o| o.is_ne()).unwrap_or(Ordering::Equal)
     }
 
-    /// The greatest difference of the middles.
-    fn distance(&self, other: &Zero) -> f64 {
-        let pairs = self.centre.iter().zip(&other.centre);
-        pairs.map(|(a, b)| (a - b).abs()).fold(0.0, largest)
-    }
-
     /// Whether both are the same zero: the box of one lies where the other is alone.
     pub fn is_same(&self, other: &Zero) -> bool {
-        let within = |radius: f64, alone: f64| round_up(self.distance(other) + radius, 4) < alone;
-        within(self.radius, other.alone) || within(other.radius, self.alone)
+        let off = |k: usize| (self.centre[k] - other.centre[k]).abs();
+        let is_in = |one: &Zero, other: &Zero| {
+            (0..one.centre.len())
+                .all(|k| round_up(off(k) + one.radius_in(k), 4) < other.alone_in(k))
+        };
+        is_in(self, other) || is_in(other, self)
     }
 }

@@ -74,7 +74,7 @@ impl<'s, 'a> Piece<'s, 'a> {
             block,
             rows,
             order,
-            tally: Tally::new(run),
+            tally: Tally::new(run, block.square.has_ranges),
             curve: None,
             symbols: 0,
         }

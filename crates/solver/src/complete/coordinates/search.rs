@@ -148,6 +148,7 @@ impl<'a> Block<'a> {
                 rows: own_rows,
                 own: own.to_vec(),
                 place,
+                has_ranges: system.has_ranges,
             },
             rows,
             is_free,

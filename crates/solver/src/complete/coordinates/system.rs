@@ -41,6 +41,8 @@ pub struct System {
     pub nonzero: Vec<Vec<[usize; 2]>>,
     /// The signs that are asked for, if any are.
     pub oriented: Option<Oriented>,
+    /// Whether right-hand sides are anywhere in ranges, not known but for roundings.
+    pub has_ranges: bool,
 }
 
 impl Row {
@@ -143,6 +145,7 @@ impl System {
             positive: homotopy.positive_unknowns(),
             nonzero: homotopy.nonzero_vectors(),
             oriented: None,
+            has_ranges: false,
         };
         let names = system.names();
         for ends in system.nonzero.iter_mut().flatten() {

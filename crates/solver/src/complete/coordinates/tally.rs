@@ -9,6 +9,8 @@ use std::sync::atomic::Ordering;
 /// What was found in a part of a search, and how many of its own parts stay undecided.
 pub struct Tally<'s> {
     run: &'s Run<'s>,
+    /// Whether numbers are anywhere in ranges: what is undecided is so however small it is.
+    has_ranges: bool,
     /// What was found.
     pub found: Found,
     /// The parts that stay undecided.
@@ -17,9 +19,10 @@ pub struct Tally<'s> {
 
 impl<'s> Tally<'s> {
     /// Nothing was looked at.
-    pub fn new(run: &'s Run<'s>) -> Self {
+    pub fn new(run: &'s Run<'s>, has_ranges: bool) -> Self {
         Tally {
             run,
+            has_ranges,
             found: Found::default(),
             left: 0,
         }
@@ -36,7 +39,7 @@ impl<'s> Tally<'s> {
             self.leave(Why::Unfinished, share);
             return false;
         }
-        if self.left > TOO_MANY {
+        if self.left > if self.has_ranges { MANY } else { TOO_MANY } {
             self.leave(Why::GivenUp, share);
             return false;
         }
@@ -59,7 +62,7 @@ impl<'s> Tally<'s> {
 
     /// How narrow a part has to be to stay undecided: less so where many do, or where a curve of zeros was seen.
     pub fn least(&self, is_flexible: bool) -> f64 {
-        match self.left > MANY || is_flexible {
+        match self.left > MANY || is_flexible || self.has_ranges {
             true => COARSE,
             false => SMALL,
         }

@@ -176,7 +176,7 @@ impl Poses {
             poses: self,
             block,
             x,
-            tally: Tally::new(run),
+            tally: Tally::new(run, block.square.has_ranges),
             is_flexible: false,
         };
         let mut first = new();
