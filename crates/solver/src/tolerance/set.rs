@@ -87,6 +87,9 @@ pub fn study_all(
         let points: Vec<[Interval; 3]> = points.collect();
         let bands = limited.put(&points);
         let mut study = || {
+            if control.is_interrupted() {
+                return Err("the run was ended before it was measured".to_owned());
+            }
             let places = problem.points.iter().zip(&bands);
             // What stands is where it is drawn.
             let places = places.map(|(point, band)| {
