@@ -32,15 +32,10 @@ const ZERO: Big = Big {
     digits: [0; WORDS],
 };
 
-/// The 64 bits from one bit of a whole number on, which has zeros on both sides.
+/// The upper of two neighbouring words, after both are moved up by fewer than 64 bits.
 #[inline]
-fn word(digits: &[u64], at: i64) -> u64 {
-    let (index, shift) = (at >> 6, at & 63);
-    let of = |k: i64| {
-        let word = usize::try_from(k).ok().and_then(|k| digits.get(k));
-        word.copied().unwrap_or(0)
-    };
-    ((u128::from(of(index)) | u128::from(of(index + 1)) << 64) >> shift) as u64
+fn upper([low, high]: [u64; 2], shift: u32) -> u64 {
+    high << shift | low >> 1 >> (63 - shift)
 }
 
 /// Whether a whole number has a bit below this one.
@@ -52,16 +47,25 @@ fn any_below(digits: &[u64], at: i64) -> bool {
         || at > 0 && digits.get(whole).is_some_and(|d| d & part != 0)
 }
 
+/// A power of two, beyond the floats 0 or infinite.
+fn two_to(exponent: i64) -> f64 {
+    f64::from_bits(((exponent.clamp(-1023, 1024) + 1023) as u64) << 52)
+}
+
 /// ± digits · 2^exponent for digits of any length.
 #[inline]
 fn rounded(negative: bool, exponent: i64, digits: &[u64]) -> Big {
     let Some(top) = digits.iter().rposition(|&d| d != 0) else {
         return ZERO;
     };
-    let mut from = 64 * (top as i64 + 1) - i64::from(digits[top].leading_zeros()) - BITS;
-    let mut out: [u64; WORDS] = array::from_fn(|k| word(digits, from + 64 * k as i64));
-    let is_half = word(digits, from - 1) & 1 == 1;
-    if is_half && (out[0] & 1 == 1 || any_below(digits, from - 1)) {
+    let (from_top, shift) = (&digits[..=top], digits[top].leading_zeros());
+    let at = |k: usize| from_top.iter().rev().nth(k).copied().unwrap_or(0);
+    let moved = |k: usize| upper([at(k + 1), at(k)], shift);
+    let mut out: [u64; WORDS] = array::from_fn(|k| moved(WORDS - 1 - k));
+    let mut from = 64 * (top as i64 + 1) - i64::from(shift) - BITS;
+    let below = moved(WORDS);
+    let is_more = || below << 1 != 0 || any_below(digits, from - 64);
+    if below >> 63 == 1 && (out[0] & 1 == 1 || is_more()) {
         let is_carried = out.iter_mut().all(|digit| {
             *digit = digit.wrapping_add(1);
             *digit == 0
@@ -137,8 +141,8 @@ impl Big {
     pub fn to_f64(&self) -> f64 {
         let [rest @ .., top] = &self.digits;
         let top = top | u64::from(rest.iter().any(|&d| d != 0));
-        let power = (self.exponent + BITS - 64).clamp(-4000, 4000) as i32;
-        let size = top as f64 * 2f64.powi(power / 2) * 2f64.powi(power - power / 2);
+        let power = self.exponent + BITS - 64;
+        let size = top as f64 * two_to(power / 2) * two_to(power - power / 2);
         if self.negative { -size } else { size }
     }
 
@@ -190,9 +194,15 @@ fn sum(a: &Big, b: &Big, is_difference: bool) -> Big {
     let wide = |[a, b, c, d]: [u64; WORDS]| [0, a, b, c, d, 0];
     let (mut digits, right) = (wide(large.digits), wide(small.digits));
     let shift = large.exponent - small.exponent;
+    let (words, bits) = ((shift >> 6) as usize, (shift & 63) as u32);
+    let at = |k: usize| right.get(k + words).copied().unwrap_or(0);
     let mut carry = false;
     for (k, digit) in digits.iter_mut().enumerate() {
-        let mut right_digit = word(&right, 64 * k as i64 + shift);
+        // Down by some bits is up by the others, and down by a word.
+        let mut right_digit = match bits {
+            0 => at(k),
+            _ => upper([at(k), at(k + 1)], 64 - bits),
+        };
         if k == 0 {
             right_digit |= u64::from(any_below(&right, shift));
         }
