@@ -169,8 +169,8 @@ impl Plain {
         self.correct(&(z - &at.1 * shift), &at.1)
     }
 
-    /// A run as a certificate, with the number of the first tube behind a jump, if there is one.
-    fn certificate(&self, problem: &Problem, run: &[Point], r: f32) -> (Certificate, Option<u64>) {
+    /// A run as a certificate, its tubes without a radius, with the number of the first tube behind a jump, if there is one.
+    fn certificate(&self, problem: &Problem, run: &[Point]) -> (Certificate, Option<u64>) {
         let mut jumps: Vec<usize> = Vec::new();
         let mut points: Vec<Point> = Vec::new();
         for pair in run.windows(2) {
@@ -213,7 +213,7 @@ impl Plain {
                 normal: c.iter().map(|&c| c as f32).collect(),
                 weights: vec![u16::MAX; self.n],
                 h: 0.7 * f64::max(before, after),
-                r,
+                r: 0.0,
                 exit: 0.55 * after,
             }));
             let Some((next, _)) = points.get(k + 1) else {
@@ -267,14 +267,17 @@ fn verdict(name: &str, step: f64) -> (Verdict, usize, Option<u64>) {
     let problem = crate::common::shipped(name);
     let plain = Plain::new(&problem);
     let run = plain.run(step).expect("the float run closes");
+    let (mut certificate, jump) = plain.certificate(&problem, &run);
     let tries = [1e-3, 1e-4, 1e-5, 1e-6].map(|r| {
-        let (certificate, jump) = plain.certificate(&problem, &run, r);
-        let verdict = verify(&certificate.bytes()[..], &Settings::default(), &mut |_| ()).unwrap();
-        (verdict, jump)
+        for record in &mut certificate.records {
+            if let Record::Tube(tube) = record {
+                tube.r = r;
+            }
+        }
+        verify(&certificate.bytes()[..], &Settings::default(), &mut |_| ()).unwrap()
     });
-    let best = tries.into_iter().max_by_key(|(verdict, _)| verdict.tubes);
-    let (verdict, jump) = best.unwrap();
-    (verdict, crossings(&run), jump)
+    let best = tries.into_iter().max_by_key(|verdict| verdict.tubes);
+    (best.unwrap(), crossings(&run), jump)
 }
 
 /// So written down, float runs with short steps are proved: what follows is not the format's fault.

@@ -563,7 +563,7 @@ fn random_problems_in_the_plane_verify() {
 
 #[test]
 fn random_problems_in_space_verify() {
-    verify_some(3, (10, 3), 5);
+    verify_some(3, (5, 1), 5);
 }
 
 #[test]

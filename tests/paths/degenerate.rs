@@ -11,6 +11,7 @@ use krawl::report::theorem;
 use krawl::system::Homotopy;
 use krawl::track::{Control, Mode, Options, Outcome, Solution, Space, Status, solve};
 use std::collections::BTreeSet;
+use std::sync::OnceLock;
 use std::time::Duration;
 
 /// The lengths and faces of the hexahedron, by the numbers of points.
@@ -334,11 +335,22 @@ fn flat_figures_of_other_problems_are_not_degenerate() {
     }
 }
 
+type Certified = (Outcome, Certificate, Verdict);
+
 /// A run with the certificate that it leaves, taken apart, and what is verified of that.
-fn certified(options: &Options) -> (Outcome, Certificate, Verdict) {
+fn certified(options: &Options) -> Certified {
     let (outcome, bytes) = certificate::of(&hexahedron(), options);
     let verdict = verify(&bytes[..], &Settings::default(), &mut |_| ()).unwrap();
     (outcome, Certificate::read(&bytes), verdict)
+}
+
+/// The same for the default, made once for all tests; or with `reversed` in the other direction.
+fn by_default(reversed: bool) -> &'static Certified {
+    static MADE: [OnceLock<Certified>; 2] = [const { OnceLock::new() }; 2];
+    MADE[usize::from(reversed)].get_or_init(|| match reversed {
+        true => certified(&Options::certified().reversed()),
+        false => certified(&Options::certified()),
+    })
 }
 
 /// The whole closed path, in either direction and in either space.
@@ -348,9 +360,12 @@ fn a_certificate_holds_the_whole_closed_path() {
         space: Space::Reduced,
         ..Options::certified()
     };
-    let both = [Options::certified(), Options::certified().reversed()];
-    for options in both.into_iter().chain([reduced]) {
-        let (outcome, certificate, verdict) = certified(&options);
+    let in_reduced = certified(&reduced);
+    for (options, (outcome, certificate, verdict)) in [
+        (Options::certified(), by_default(false)),
+        (Options::certified().reversed(), by_default(true)),
+        (reduced, &in_reduced),
+    ] {
         assert_eq!(outcome.status, Status::Closed);
         assert_eq!(outcome.space, options.space);
         assert_eq!(verdict.outcome, Verdicts::Verified, "{options:?}");
@@ -371,7 +386,7 @@ fn a_certificate_holds_the_whole_closed_path() {
                 assert!(b.subset(*a) && a.wid() <= 1e-6, "{a:?} {b:?}");
             }
         }
-        let words = theorem(&verdict, Duration::ZERO);
+        let words = theorem(verdict, Duration::ZERO);
         let what = "28 points with t = 1, 4 of them degenerate (flat) figures";
         assert!(words.contains(what), "{words}");
         assert!(words.contains("S is a closed curve"), "{words}");
@@ -444,8 +459,8 @@ fn checked(certificate: &Certificate) -> Result<Verdicts, FormatError> {
 /// A run that stops behind a flat figure leaves what it has.
 #[test]
 fn a_run_that_stops_behind_a_flat_figure_is_incomplete() {
-    let (_, whole, _) = certified(&Options::certified());
-    let short = cut(&whole, 1);
+    let (_, whole, _) = by_default(false);
+    let short = cut(whole, 1);
     let stopped = || Verdicts::Partial("cut".to_owned());
     assert_eq!(checked(&short).unwrap(), stopped());
     let options = Options {
@@ -463,7 +478,7 @@ fn a_run_that_stops_behind_a_flat_figure_is_incomplete() {
     let at = of_kind(&middle, |record| *record == Record::Divide)[0];
     for behind in [at, at + 1] {
         middle.records.truncate(behind + 1);
-        finish(&mut middle, Ending::Stopped("cut".to_owned()), &whole);
+        finish(&mut middle, Ending::Stopped("cut".to_owned()), whole);
         assert_eq!(checked(&middle).unwrap(), stopped());
         middle = whole.clone();
     }
@@ -472,16 +487,16 @@ fn a_run_that_stops_behind_a_flat_figure_is_incomplete() {
 /// Both ways from the sketch, past a flat figure each: an open path, as far as a certificate goes.
 #[test]
 fn open_paths_pass_flat_figures() {
-    let (_, whole, _) = certified(&Options::certified());
-    let (_, back, _) = certified(&Options::certified().reversed());
-    let mut open = cut(&whole, 1);
+    let (_, whole, _) = by_default(false);
+    let (_, back, _) = by_default(true);
+    let mut open = cut(whole, 1);
     open.records.pop();
     open.records.push(Record::Turn);
-    let mut other = cut(&back, 1);
+    let mut other = cut(back, 1);
     other.records.pop();
     open.records.extend(other.records);
     let ends = ["one".to_owned(), "other".to_owned()];
-    finish(&mut open, Ending::Open(ends), &whole);
+    finish(&mut open, Ending::Open(ends), whole);
     let verdict = verify(&open.bytes()[..], &Settings::default(), &mut |_| ()).unwrap();
     assert_eq!(verdict.outcome, Verdicts::Verified);
     assert!(verdict.is_open);
@@ -546,8 +561,8 @@ fn reversed(record: &Record) -> Record {
 /// What is wrong in the records of other equations is refused.
 #[test]
 fn false_pieces_are_refused() {
-    let (_, whole, _) = certified(&Options::certified());
-    let good = cut(&whole, 2);
+    let (_, whole, _) = by_default(false);
+    let good = cut(whole, 2);
     assert_eq!(checked(&good).unwrap(), Verdicts::Partial("cut".to_owned()));
     let refused = |what: &str, certificate: &Certificate| match checked(certificate) {
         Ok(outcome @ (Verdicts::Verified | Verdicts::Partial(_))) => panic!("{what}: {outcome:?}"),
@@ -658,7 +673,7 @@ fn false_pieces_are_refused() {
     let mut way: Vec<Record> = vec![reversed(&round.records[tubes[0]]), Record::Return];
     way.extend(there.iter().rev().map(|&k| reversed(&round.records[k])));
     round.records.extend(way);
-    finish(&mut round, Ending::Complete, &whole);
+    finish(&mut round, Ending::Complete, whole);
     let found = refused("turned round in the piece", &round);
     let turn = number + 1;
     assert!(

@@ -10,6 +10,7 @@ use krawl::problem::Problem;
 use krawl::system::Located;
 use krawl::track::prove;
 use proptest::prelude::*;
+use proptest::test_runner::{Config, TestRunner};
 
 fn read(text: &str) -> Problem {
     Problem::parse(text, "equations.toml").unwrap_or_else(|error| panic!("{text}: {error}"))
@@ -311,42 +312,66 @@ fn system(of: [i32; 10]) -> String {
     )
 }
 
-proptest! {
-    #![proptest_config(ProptestConfig::with_cases(24))]
-
-    /// Newton's method from many starts finds no solution that is not among those that are said to be all, and comes to each of them.
-    #[test]
-    fn all_of_them_are_found(
-        a in 2..5i32, b in -1..2i32, c in 2..5i32, rest in prop::array::uniform7(-4..5i32),
-    ) {
-        let [d, e, f, g, h, i, j] = rest;
-        let of = [a, b, c, d, e, f, g, h, i, j];
-        let Ok(problem) = Problem::parse(&system(of), "random.toml") else {
-            // The second equation has no x or y.
-            return Ok(());
-        };
-        let (found, is_complete) = real(&problem);
-        let [a, b, c, d, e, f, g, h, i, j] = of.map(f64::from);
-        let mut seen = vec![false; found.len()];
-        for start in 0..400 {
-            let (mut x, mut y) = (f64::from(start % 20) - 9.7, f64::from(start / 20) - 9.4);
-            for _ in 0..60 {
-                let p = a * x * x + b * x * y + c * y * y + d * x + e * y - 30.0;
-                let q = f * x * x + g * x * y + h * y * y + i * x + j * y - 2.0;
-                let (px, py) = (2.0 * a * x + b * y + d, b * x + 2.0 * c * y + e);
-                let (qx, qy) = (2.0 * f * x + g * y + i, g * x + 2.0 * h * y + j);
-                let det = px * qy - py * qx;
-                (x, y) = (x - (p * qy - q * py) / det, y - (q * px - p * qx) / det);
-            }
+/// Newton's method from many starts finds no solution that is not among those that are said to be all, and comes to each of them.
+fn are_all_found(of: [i32; 10]) -> Result<(), TestCaseError> {
+    let Ok(problem) = Problem::parse(&system(of), "random.toml") else {
+        // The second equation has no x or y.
+        return Ok(());
+    };
+    let (found, is_complete) = real(&problem);
+    let [a, b, c, d, e, f, g, h, i, j] = of.map(f64::from);
+    let mut seen = vec![false; found.len()];
+    for start in 0..400 {
+        let (mut x, mut y) = (f64::from(start % 20) - 9.7, f64::from(start / 20) - 9.4);
+        for _ in 0..60 {
             let p = a * x * x + b * x * y + c * y * y + d * x + e * y - 30.0;
             let q = f * x * x + g * x * y + h * y * y + i * x + j * y - 2.0;
-            if p.is_nan() || q.is_nan() || p.abs() + q.abs() > 1e-11 {
-                continue;
-            }
-            let known = found.iter().position(|s| (s[0] - x).abs() + (s[1] - y).abs() < 1e-6);
-            prop_assert!(known.is_some() || !is_complete, "{of:?}: {x} {y} is not among {found:?}");
-            known.into_iter().for_each(|k| seen[k] = true);
+            let (px, py) = (2.0 * a * x + b * y + d, b * x + 2.0 * c * y + e);
+            let (qx, qy) = (2.0 * f * x + g * y + i, g * x + 2.0 * h * y + j);
+            let det = px * qy - py * qx;
+            (x, y) = (x - (p * qy - q * py) / det, y - (q * px - p * qx) / det);
         }
-        prop_assert!(seen.iter().all(|seen| *seen), "{of:?}: {found:?}");
+        let p = a * x * x + b * x * y + c * y * y + d * x + e * y - 30.0;
+        let q = f * x * x + g * x * y + h * y * y + i * x + j * y - 2.0;
+        if p.is_nan() || q.is_nan() || p.abs() + q.abs() > 1e-11 {
+            continue;
+        }
+        let known = found
+            .iter()
+            .position(|s| (s[0] - x).abs() + (s[1] - y).abs() < 1e-6);
+        prop_assert!(
+            known.is_some() || !is_complete,
+            "{of:?}: {x} {y} is not among {found:?}"
+        );
+        known.into_iter().for_each(|k| seen[k] = true);
     }
+    prop_assert!(seen.iter().all(|seen| *seen), "{of:?}: {found:?}");
+    Ok(())
+}
+
+/// So many systems.
+fn all_are_found(cases: u32) {
+    let rest = prop::array::uniform7(-4..5i32);
+    let any = (2..5i32, -1..2i32, 2..5i32, rest);
+    let run = TestRunner::new(Config {
+        cases,
+        failure_persistence: None,
+        ..Config::default()
+    })
+    .run(&any, |(a, b, c, rest)| {
+        let [d, e, f, g, h, i, j] = rest;
+        are_all_found([a, b, c, d, e, f, g, h, i, j])
+    });
+    run.unwrap();
+}
+
+#[test]
+fn all_of_them_are_found() {
+    all_are_found(10);
+}
+
+#[test]
+#[ignore = "half a minute"]
+fn all_of_many_are_found() {
+    all_are_found(100);
 }

@@ -2,7 +2,8 @@
 
 use krawl::rational::Rational;
 use num_bigint::{BigInt, Sign};
-use num_traits::{One, Zero};
+use num_integer::Integer;
+use num_traits::{One, Signed, Zero};
 
 /// Coefficients, the constant first.
 #[derive(Debug, Clone, PartialEq)]
@@ -76,29 +77,6 @@ impl Polynomial {
         )
     }
 
-    /// What a division leaves.
-    fn rest(&self, divisor: &Self) -> Self {
-        let mut rest = self.0.clone();
-        let b = &divisor.0;
-        while rest.len() >= b.len() {
-            let factor = &rest[rest.len() - 1] / &b[b.len() - 1];
-            let shift = rest.len() - b.len();
-            for (k, c) in b.iter().enumerate() {
-                rest[k + shift] = &rest[k + shift] - &factor * c;
-            }
-            rest.pop();
-        }
-        Polynomial(rest).trimmed()
-    }
-
-    /// Scaled to a leading coefficient ±1.
-    fn normed(self) -> Self {
-        match self.0.last().cloned() {
-            Some(leading) => self.scaled(&leading.abs().recip()),
-            None => self,
-        }
-    }
-
     /// A bound on the size of all roots (Cauchy), a power of two.
     fn bound(&self) -> Rational {
         let leading = self.0.last().expect("not the zero polynomial");
@@ -135,30 +113,60 @@ fn sign(p: &[BigInt], x: &Dyadic) -> Sign {
     sum.sign()
 }
 
-/// Sturm's sequence of a polynomial.
-struct Sturm {
-    sequence: Vec<Vec<BigInt>>,
-    /// The common factor of the polynomial and its derivative, which has the multiple roots.
-    multiple: Polynomial,
+/// The same without a common factor.
+fn reduced(p: Vec<BigInt>) -> Vec<BigInt> {
+    // Most often the first two coefficients have no other.
+    let common = p.iter().fold(BigInt::zero(), |common, c| {
+        let is_none = common.is_zero();
+        common.gcd(&if is_none { c.clone() } else { c % &common })
+    });
+    p.iter().map(|c| c / &common).collect()
 }
 
-impl Sturm {
-    fn new(p: &Polynomial) -> Self {
-        let mut sequence = vec![p.clone().normed(), p.derivative().normed()];
-        while !sequence[sequence.len() - 1].0.is_empty() {
-            let k = sequence.len();
-            let rest = sequence[k - 2].rest(&sequence[k - 1]);
-            sequence.push(rest.scaled(&-Rational::one()).normed());
+/// What a division leaves, turned round, times a positive number.
+fn turned_rest(p: &[BigInt], divisor: &[BigInt]) -> Vec<BigInt> {
+    let (leading, others) = divisor.split_last().expect("not the zero polynomial");
+    let mut rest = p.to_vec();
+    while rest.len() >= divisor.len()
+        && let Some(top) = rest.pop()
+    {
+        let (factor, shift) = (top * leading.signum(), rest.len() - others.len());
+        rest.iter_mut().for_each(|c| *c *= leading.abs());
+        for (c, other) in rest[shift..].iter_mut().zip(others) {
+            *c -= &factor * other;
         }
-        sequence.pop();
-        Sturm {
-            multiple: sequence[sequence.len() - 1].clone(),
-            sequence: sequence.iter().map(whole).collect(),
+    }
+    while rest.last().is_some_and(BigInt::is_zero) {
+        rest.pop();
+    }
+    rest.into_iter().map(|c| -c).collect()
+}
+
+/// Sturm's sequence of a polynomial, each with whole coefficients in the right proportions. The last is the common factor
+/// of the polynomial and its derivative, which has the multiple roots.
+struct Sturm(Vec<Vec<BigInt>>);
+
+impl Sturm {
+    fn new(p: Vec<BigInt>) -> Self {
+        let slopes = p.iter().enumerate().skip(1);
+        let derivative = slopes.map(|(k, c)| c * BigInt::from(k)).collect();
+        let mut sequence = vec![reduced(p), reduced(derivative)];
+        loop {
+            let k = sequence.len();
+            let rest = turned_rest(&sequence[k - 2], &sequence[k - 1]);
+            if rest.is_empty() {
+                return Sturm(sequence);
+            }
+            sequence.push(reduced(rest));
         }
     }
 
+    fn multiple(&self) -> &Vec<BigInt> {
+        &self.0[self.0.len() - 1]
+    }
+
     fn changes(&self, x: &Dyadic) -> usize {
-        let signs = self.sequence.iter().map(|q| sign(q, x));
+        let signs = self.0.iter().map(|q| sign(q, x));
         let signs: Vec<Sign> = signs.filter(|s| *s != Sign::NoSign).collect();
         signs.windows(2).filter(|w| w[0] != w[1]).count()
     }
@@ -181,18 +189,18 @@ pub fn first_positive(p: &Polynomial) -> Option<Root> {
     if p.0.len() < 2 {
         return None;
     }
-    let sturm = Sturm::new(p);
+    let sturm = Sturm::new(whole(p));
     let (mut lo, mut hi) = (Dyadic(BigInt::zero(), 0), Dyadic(p.bound().to_integer(), 0));
     if sturm.roots(&lo, &hi) == 0 {
         return None;
     }
-    let has_multiple = sturm.multiple.0.len() > 1;
+    let has_multiple = sturm.multiple().len() > 1;
     let mut alone = false;
     for _ in 0..160 {
         let middle = Dyadic((&lo.0 << (hi.1 - lo.1)) + &hi.0, hi.1 + 1);
         // Once a simple root is alone a change of sign tells where it is.
         let below = if alone {
-            sign(&sturm.sequence[0], &middle) != sign(&sturm.sequence[0], &lo)
+            sign(&sturm.0[0], &middle) != sign(&sturm.0[0], &lo)
         } else {
             sturm.roots(&lo, &middle) > 0
         };
@@ -205,10 +213,10 @@ pub fn first_positive(p: &Polynomial) -> Option<Root> {
         }
         alone = alone
             || !has_multiple
-                && sign(&sturm.sequence[0], &lo) != Sign::NoSign
+                && sign(&sturm.0[0], &lo) != Sign::NoSign
                 && sturm.roots(&lo, &hi) == 1;
     }
-    let simple = !has_multiple || Sturm::new(&sturm.multiple).roots(&lo, &hi) == 0;
+    let simple = !has_multiple || Sturm::new(sturm.multiple().clone()).roots(&lo, &hi) == 0;
     let at = Rational::from(hi.0) * two_to(-(hi.1 as i32));
     Some(Root { at, simple })
 }

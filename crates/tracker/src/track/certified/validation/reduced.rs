@@ -30,11 +30,11 @@ fn reduced_proofs_hold_along_the_shipped_problems() {
     ratios.come_near(&[("|Φ'(0)|", 0.3), ("|Φ(0)|", 0.1)]);
 }
 
-#[test]
-fn reduced_proofs_hold_along_random_problems() {
+/// So many random problems, with so many tubes at least and so many of them tightened.
+fn hold_along_random_problems(rounds: usize, [least, least_tightened]: [usize; 2]) {
     let (mut ratios, mut random) = (Ratios::default(), Random::new(22));
     let [mut tubes, mut tightened] = [0; 2];
-    for round in 0..effort(60) {
+    for round in 0..effort(rounds) {
         let dimension = 2 + round % 2;
         let points = 2 + random.below(6) + usize::from(dimension == 3);
         let change = [0.1, 0.5, 1e-6][random.below(3)];
@@ -50,13 +50,27 @@ fn reduced_proofs_hold_along_random_problems() {
         tubes += counts[0];
         tightened += counts[1];
     }
-    assert!(tubes > 200 && tightened > 50, "{tubes} {tightened}");
+    assert!(
+        tubes > least && tightened > least_tightened,
+        "{tubes} {tightened}"
+    );
 }
 
 #[test]
-fn reduced_proofs_hold_along_problems_of_mixed_kinds() {
+fn reduced_proofs_hold_along_random_problems() {
+    hold_along_random_problems(30, [100, 25]);
+}
+
+#[test]
+#[ignore = "some seconds"]
+fn reduced_proofs_hold_along_many_random_problems() {
+    hold_along_random_problems(60, [200, 50]);
+}
+
+/// So many problems of mixed kinds, with so many tubes at least.
+fn hold_along_problems_of_mixed_kinds(rounds: usize, least: usize) {
     let (mut ratios, mut random, mut tubes) = (Ratios::default(), Random::new(24), 0);
-    for round in 0..effort(40) {
+    for round in 0..effort(rounds) {
         let problem = mixed_problem(&mut random, 2 + round % 2);
         let homotopy = Homotopy::new(&problem).unwrap();
         let alpha = [0.05, 0.1, 0.2, 0.4][random.below(4)];
@@ -64,5 +78,16 @@ fn reduced_proofs_hold_along_problems_of_mixed_kinds() {
         let given = (&problem, &homotopy);
         tubes += check_problem(given, how, (8, 4), &mut random, &mut ratios)[0];
     }
-    assert!(tubes > 100, "{tubes}");
+    assert!(tubes > least, "{tubes}");
+}
+
+#[test]
+fn reduced_proofs_hold_along_problems_of_mixed_kinds() {
+    hold_along_problems_of_mixed_kinds(24, 60);
+}
+
+#[test]
+#[ignore = "some seconds"]
+fn reduced_proofs_hold_along_many_problems_of_mixed_kinds() {
+    hold_along_problems_of_mixed_kinds(40, 100);
 }

@@ -9,6 +9,7 @@ pub mod big;
 mod contraction;
 mod extended;
 mod figure;
+mod float;
 mod folds;
 pub mod full;
 mod given;
