@@ -445,6 +445,7 @@ pub fn read(bytes: &[u8], format: Format, index: usize) -> Result<Imported, Stri
             format,
             lines: molecule.atoms.iter().map(|atom| atom.2).collect(),
         }),
+        sources: Vec::new(),
     })
 }
 
