@@ -5,7 +5,7 @@ use super::digits::ManyDigits;
 use super::edit::say_if_it_moves;
 use super::input::Asked;
 use super::measured::{Measured, placed};
-use super::output::{self, Beside, Destination, beside, number};
+use super::output::{self, Beside, Destination, Refusal, beside, number};
 use super::pictures::Pictures;
 use super::take::{Candidates, Take, Taken};
 use super::verify::check_cover;
@@ -123,7 +123,7 @@ fn share(text: &str) -> Result<[usize; 2], String> {
 }
 
 /// Runs the verb and returns the exit code.
-pub fn run(arguments: &Arguments) -> Result<u8, String> {
+pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
     let (file, sketch) = (&arguments.file, arguments.sketch.as_deref());
     arguments.take.check(file)?;
     let (asked, skeleton) = input::asked(
@@ -145,9 +145,8 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
         && Some(cert) == arguments.json.as_ref()
     {
         let cert = cert.display();
-        return Err(format!(
-            "{cert}: is the file of both --cert and --json; name another one for one of them"
-        ));
+        let what = "is the file of both --cert and --json; name another one for one of them";
+        return Err(format!("{cert}: {what}").into());
     }
     let pictures = arguments.pictures.places([&arguments.file])?;
     // Before any file is begun, so that an interrupt leaves none behind.
@@ -180,14 +179,13 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
         None => all(&problem, &options),
     };
     line.clear();
-    let mut result = match result {
-        Ok(result) => result,
-        Err(Unserved::Store(what)) => return Err(what),
-        Err(unserved) => {
-            output::complain(&format!("{}: {unserved}", arguments.file.display()));
-            return Ok(STOPPED);
-        }
-    };
+    let mut result = result.map_err(|unserved| match unserved {
+        Unserved::Store(what) => Refusal::from(what),
+        unserved => Refusal {
+            message: format!("{}: {unserved}", arguments.file.display()),
+            code: STOPPED,
+        },
+    })?;
     let mut written = true;
     let mut checked = Checked::default();
     match (&cert, result.cover.take()) {

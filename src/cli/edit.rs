@@ -1,7 +1,7 @@
 //! `krawl edit`: changes dimensions and takes the figure along.
 
 use super::measured::Measured;
-use super::output::{self, Beside, Destination, beside};
+use super::output::{self, Beside, Destination, Refusal, beside};
 use super::pictures::Pictures;
 use super::take::check_format;
 use super::verify::check_written;
@@ -120,11 +120,7 @@ impl LeftOut {
 }
 
 /// Runs the verb and returns the exit code.
-pub fn run(arguments: &Arguments) -> u8 {
-    output::exit_code(try_run(arguments))
-}
-
-fn try_run(arguments: &Arguments) -> Result<u8, String> {
+pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
     arguments.time.begin();
     if let Some(out) = &arguments.out {
         check_format(&arguments.file, out)?;
@@ -137,15 +133,11 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         ..arguments.left_out.options()
     };
     if arguments.serve {
-        return Ok(
-            match open(&problem, &arguments.file, &options, &mut Control::default())? {
-                Ok(mut session) => match serve::serve(&mut session, &loaded) {
-                    true => CLOSED,
-                    false => BAD_INPUT,
-                },
-                Err(code) => code,
-            },
-        );
+        let mut session = open(&problem, &arguments.file, &options, &mut Control::default())?;
+        return Ok(match serve::serve(&mut session, &loaded) {
+            true => CLOSED,
+            false => BAD_INPUT,
+        });
     }
     let named = arguments.set.iter();
     let named = named.map(|text| Setting::split(&problem, text));
@@ -160,7 +152,8 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         let name = problem.dimension_name(index);
         return Err(in_file(&format!(
             "{name}: under `angles` a file has none of 0 or 180 degrees, nor one beyond that is computed: leave out --out, or say `turns` in the file"
-        )));
+        ))
+        .into());
     }
     let measures = arguments.measured.of(&problem)?;
     let as_turns = asked.in_words(&problem);
@@ -213,10 +206,7 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         true => Session::open_with(&problem, &options, &mut control),
         false => Session::open_to_drag(&problem, &options, &mut control),
     };
-    let mut session = match taken(opened, &arguments.file)? {
-        Ok(session) => session,
-        Err(code) => return Ok(code),
-    };
+    let mut session = taken(opened, &arguments.file)?;
     let mut edited = match drags.is_empty() {
         true => session.edit_with(&led, &mut control),
         false => session.drag(&drags, &mut control),
@@ -383,26 +373,25 @@ pub(super) fn say_if_it_moves(problem: &Problem) {
     }
 }
 
-/// Takes the sketch for the figure, or says why it is none: then the exit code.
+/// Takes the sketch for the figure, or says why it is none.
 pub(super) fn open(
     problem: &Problem,
     file: &Path,
     options: &Options,
     control: &mut Control,
-) -> Result<Result<Session, u8>, String> {
+) -> Result<Session, Refusal> {
     taken(Session::open_with(problem, options, control), file)
 }
 
-/// A session, or its exit code where the sketch is no figure, which is said.
-fn taken(opened: Result<Session, OpenError>, file: &Path) -> Result<Result<Session, u8>, String> {
-    match opened {
-        Ok(session) => Ok(Ok(session)),
-        Err(error @ OpenError::Correction { .. }) => {
-            output::complain(&in_file(file, &error));
-            Ok(Err(STOPPED))
-        }
-        Err(error) => Err(in_file(file, &error)),
-    }
+/// A session, unless the sketch is no figure.
+fn taken(opened: Result<Session, OpenError>, file: &Path) -> Result<Session, Refusal> {
+    opened.map_err(|error| Refusal {
+        message: in_file(file, &error),
+        code: match error {
+            OpenError::Correction { .. } => STOPPED,
+            _ => BAD_INPUT,
+        },
+    })
 }
 
 /// The exit code that tells how an edit ended.

@@ -2,7 +2,7 @@
 
 use super::edit::{LeftOut, carried, certified, commit, drawn_in_words, exit_code, open, reason};
 use super::measured::Measured;
-use super::output::{self, Beside, Destination, beside};
+use super::output::{self, Beside, Destination, Refusal, beside};
 use super::pictures::Pictures;
 use super::{BAD_INPUT, CLOSED, input, interrupt, table};
 use crate::places::Each as _;
@@ -93,7 +93,7 @@ pub struct Arguments {
 }
 
 /// Runs the verb and returns the exit code.
-pub fn run(arguments: &Arguments) -> Result<u8, String> {
+pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
     arguments.time.begin();
     match (
         &arguments.table,
@@ -108,7 +108,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
 }
 
 /// Drives one dimension through a range.
-fn drive(arguments: &Arguments, vary: &str, ends: [&str; 2]) -> Result<u8, String> {
+fn drive(arguments: &Arguments, vary: &str, ends: [&str; 2]) -> Result<u8, Refusal> {
     let shown = arguments.source.file.display();
     let loaded = arguments.source.load()?;
     let problem = &loaded.problem;
@@ -154,15 +154,8 @@ fn drive(arguments: &Arguments, vary: &str, ends: [&str; 2]) -> Result<u8, Strin
         witness: witness.as_mut().map(|writer| writer as &mut dyn Witness),
         ..interrupt::control()
     };
-    let mut session = match open(
-        &problem,
-        &arguments.source.file,
-        &arguments.left_out.options(),
-        &mut control,
-    )? {
-        Ok(session) => session,
-        Err(code) => return Ok(code),
-    };
+    let options = arguments.left_out.options();
+    let mut session = open(&problem, &arguments.source.file, &options, &mut control)?;
     let mut sweep = session.sweep(index, (&from, &to), arguments.frames as usize, &mut control);
     if let (Some(account), true) = (account, cert.is_some()) {
         sweep.account = account;
