@@ -512,10 +512,7 @@ fn bend(problem: &Problem) -> Option<usize> {
     const UNEQUAL: f64 = 0.01;
     let mut near: Vec<BTreeMap<usize, f64>> = vec![BTreeMap::new(); problem.points.len()];
     for distance in &problem.distances {
-        let length = match &distance.target {
-            Target::Length(length) => length.to_f64(),
-            Target::SquaredLength(squared) => squared.to_f64().sqrt(),
-        };
+        let length = distance.target.to_f64();
         let [a, b] = distance.points;
         near[a].insert(b, length);
         near[b].insert(a, length);

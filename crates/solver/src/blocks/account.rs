@@ -4,7 +4,7 @@
 //! coordinates held where they are, and a claim about it is true only with both in the same sentence. Every verb says it
 //! with the same words, [`Account::clause`], and writes it as the same JSON.
 
-use crate::interval::{Interval, enclose, hull, point};
+use crate::interval::{Interval, hull, point};
 use crate::problem::{Decimal, Problem, Target};
 use serde::Serialize;
 
@@ -363,14 +363,6 @@ fn one_digit(x: f64, fits: impl Fn(f64) -> bool, step: i32) -> String {
         10 => format!("1e{}", power + 1),
         0 => format!("9e{}", power - 1),
         digit => format!("{digit}e{power}"),
-    }
-}
-
-/// Enclosures of the length that a target wants, and of the square of that.
-pub(crate) fn enclosed(target: &Target) -> [Interval; 2] {
-    match target {
-        Target::Length(length) => [enclose(length), enclose(length).sqr()],
-        Target::SquaredLength(squared) => [enclose(squared).sqrt(), enclose(squared)],
     }
 }
 

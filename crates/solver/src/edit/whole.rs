@@ -10,9 +10,9 @@ use super::setting::Setting;
 use super::way::Way;
 use crate::blocks::Account;
 use crate::constraint::{Fault, Lowered, Owner, Record, try_lower_editable};
-use crate::interval::{Interval, enclose, point};
+use crate::interval::{Interval, point};
 use crate::places::Each as _;
-use crate::problem::{Decimal, Problem, Target};
+use crate::problem::{Decimal, Problem};
 use crate::system::{Homotopy, Located, Segment, typical_length};
 use crate::track::arc::{ArcEnd, ArcRun, Figure, Fold, Orientation};
 use crate::track::certified::{FollowArcs, arcs};
@@ -105,7 +105,7 @@ impl Whole {
             witness.begin(arcs.homotopy().unit);
         }
         let (figure, moved) = open::correct(&problem, &mut *arcs, control)?;
-        let lengths = problem.distances.iter().map(|d| length(&d.target));
+        let lengths = problem.distances.iter().map(|d| d.target.enclose());
         Ok(Whole {
             lengths: lengths.collect(),
             problem,
@@ -351,20 +351,12 @@ impl Way for Whole {
             for setting in settings {
                 setting.apply(&mut self.problem);
                 if let Some(old) = self.lengths.get_mut(setting.index) {
-                    *old = length(&setting.target);
+                    *old = setting.target.enclose();
                     let homotopy = self.arcs.homotopy_mut();
                     homotopy.hold(setting.index, &setting.target);
                 }
             }
         }
         edited
-    }
-}
-
-/// An enclosure of a target length.
-pub(super) fn length(target: &Target) -> Interval {
-    match target {
-        Target::Length(length) => enclose(length),
-        Target::SquaredLength(squared) => enclose(squared).sqrt(),
     }
 }

@@ -3,6 +3,7 @@
 //! All of this is part of [`crate::problem`], which reads, builds and checks problems; what constraints mean stands between the two.
 
 use crate::decimal::Decimal;
+use crate::interval::{Interval, enclose};
 use crate::rational::Rational;
 use std::collections::BTreeMap;
 
@@ -105,6 +106,22 @@ impl Target {
         match self {
             Target::Length(length) => length.to_f64(),
             Target::SquaredLength(squared) => squared.to_f64().sqrt(),
+        }
+    }
+
+    /// An enclosure of the length.
+    pub fn enclose(&self) -> Interval {
+        match self {
+            Target::Length(length) => enclose(length),
+            Target::SquaredLength(squared) => enclose(squared).sqrt(),
+        }
+    }
+
+    /// An enclosure of its square.
+    pub fn enclose_squared(&self) -> Interval {
+        match self {
+            Target::Length(length) => enclose(length).sqr(),
+            Target::SquaredLength(squared) => enclose(squared),
         }
     }
 }
