@@ -20,7 +20,6 @@ use krawl::report::{
 use serde_json::{Map, Value};
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 /// Find all real solutions, with a proof that there is no other
@@ -150,13 +149,13 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
     }
     let pictures = arguments.pictures.places([&arguments.file])?;
     // Before any file is begun, so that an interrupt leaves none behind.
-    let cancel = interrupt::flag();
+    interrupt::flag();
     let cert = arguments.cert.as_deref().map(Beside::new).transpose()?;
     let line = ProgressLine::new(!arguments.quiet, "");
     let begin = Instant::now();
     let tell = |now: Progress| line.show_search(now, begin.elapsed().as_secs_f64());
     let options = Options {
-        cancel: Some(cancel),
+        cancel: Some(interrupt::flag()),
         time: arguments.time.map(Duration::from_secs_f64),
         cover: cert.is_some(),
         threads: arguments.threads.unwrap_or(0).into(),
@@ -197,7 +196,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
                 && is_there
                 && !arguments.no_verify
             {
-                checked = check(arguments, (path, &cover), &mut result, cancel);
+                checked = check(arguments, (path, &cover), &mut result);
             }
         }
         (Some(_), None) => output::complain(match result.reason {
@@ -296,29 +295,23 @@ struct Checked {
 }
 
 /// Checks the certificate that was written, and takes over what it proves beyond the search. Whatever comes of it, the results are there to be told.
-fn check(
-    arguments: &Arguments,
-    (path, cover): (&Path, &[u8]),
-    result: &mut Complete,
-    cancel: &AtomicBool,
-) -> Checked {
+fn check(arguments: &Arguments, (path, cover): (&Path, &[u8]), result: &mut Complete) -> Checked {
     let (name, clock) = (path.display(), Instant::now());
     let complain = |what: String, code: Option<u8>| {
         output::complain(&format!("{name}: {what}"));
         let text = String::new();
         Checked { text, code }
     };
-    let is_ended = || cancel.load(Ordering::Relaxed);
-    let verdict = match is_ended() {
+    let verdict = match interrupt::is_requested() {
         true => None,
         false => Some(check_cover(
             cover,
             arguments.threads,
             arguments.quiet,
-            || !is_ended(),
+            || !interrupt::is_requested(),
         )),
     };
-    let verdict = match verdict.filter(|_| !is_ended()) {
+    let verdict = match verdict.filter(|_| !interrupt::is_requested()) {
         Some(Ok(verdict)) => verdict,
         Some(Err(why)) => {
             let what = format!("the certificate could not be checked: {why}; please report this");
