@@ -171,18 +171,14 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
     let mut led = settings.clone();
     let mut cert = arguments.cert.as_deref();
     if cert.is_some() {
-        match certified(&arguments.file, &problem, |session| {
-            let mut control = interrupt::control();
-            let edited = session.probe(&settings, &mut control);
-            account = Some(edited.account.clone());
+        match certified(&arguments.file, (&problem, &settings), |session| {
+            let edited = session.probe(&settings, &mut interrupt::control());
             astray = edited.astray.as_ref().map(Astray::in_words);
-            reason(&edited).map(str::to_owned)
+            (edited.account.clone(), reason(&edited))
         })? {
-            Some((whole, found)) => {
-                led = carried(&settings, (&problem, &whole)).map_err(|e| in_file(&e))?;
-                // The whole is followed as it is; what it was made from is what the claim is about.
-                account = account.or(Some(found));
-                problem = whole;
+            Some(found) => {
+                (problem, led) = (found.problem, found.settings);
+                account = Some(found.account);
             }
             None => cert = None,
         }
@@ -211,7 +207,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
         true => session.edit_with(&led, &mut control),
         false => session.drag(&drags, &mut control),
     };
-    if let (Some(account), true) = (account, cert.is_some()) {
+    if let Some(account) = account {
         edited.account = account;
         edited.switched_on.extend(astray);
     }
@@ -271,44 +267,54 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
     })
 }
 
-/// The problem that a certificate of edits is about, and what was made of that in the file: what nothing determines is held,
-/// and constraints that seem to follow from others are left out. Where some are, the edits are made part by part first, which
-/// looks at these too; if they stop there, as `stops` tells, no certificate is written, and that is said.
+/// What a certificate of edits is about.
+pub(super) struct Certified {
+    pub problem: Problem,
+    /// The settings, of that problem.
+    pub settings: Vec<Setting>,
+    /// What is proved of the figures.
+    pub account: Account,
+}
+
+/// What a certificate of edits is about, and what was made of that in the file: what nothing determines is held, and constraints that seem
+/// to follow from others are left out. Where some are, the edits are made part by part first, which looks at these too; `tried` tells
+/// what that proves, and if they stop there, why: then no certificate is written, and that is said.
 pub(super) fn certified(
     file: &Path,
-    problem: &Problem,
-    stops: impl FnOnce(&mut Session) -> Option<String>,
-) -> Result<Option<(Problem, Account)>, String> {
-    let (whole, found) = input::provable(file, problem)?;
-    if found.left_out.is_empty() {
-        return Ok(Some((whole, found)));
-    }
-    let session = Session::open(problem);
-    let mut session = session.map_err(|error| in_file(file, &error))?;
-    Ok(match stops(&mut session) {
-        None => Some((whole, found)),
-        Some(reason) => {
+    (problem, settings): (&Problem, &[Setting]),
+    tried: impl FnOnce(&mut Session) -> (Account, Option<String>),
+) -> Result<Option<Certified>, String> {
+    let (whole, mut account) = input::provable(file, problem)?;
+    if !account.left_out.is_empty() {
+        let session = Session::open(problem);
+        let mut session = session.map_err(|error| in_file(file, &error))?;
+        let (proved, stop) = tried(&mut session);
+        if let Some(reason) = stop {
             let text = format!("no certificate was written: {reason}");
             output::complain(&in_file(file, &text));
-            None
+            return Ok(None);
         }
-    })
+        account = proved;
+    }
+    let settings = carried(settings, (problem, &whole)).map_err(|error| in_file(file, &error))?;
+    Ok(Some(Certified {
+        problem: whole,
+        settings,
+        account,
+    }))
 }
 
 /// Why an edit stopped, if it did.
-pub(super) fn reason(edited: &Edited) -> Option<&str> {
+pub(super) fn reason(edited: &Edited) -> Option<String> {
     match &edited.ending {
-        Ending::Stopped(stop) => Some(&stop.text),
+        Ending::Stopped(stop) => Some(stop.text.clone()),
         _ => None,
     }
 }
 
 /// Settings of a problem as those of the one that a certificate is about. Dimensions that are left out of that, as they follow
 /// from others, are not among them; one at least has to be left.
-pub(super) fn carried(
-    settings: &[Setting],
-    (from, to): (&Problem, &Problem),
-) -> Result<Vec<Setting>, String> {
+fn carried(settings: &[Setting], (from, to): (&Problem, &Problem)) -> Result<Vec<Setting>, String> {
     let mut carried = Vec::new();
     for setting in settings {
         match setting.carried(from, to) {
