@@ -1,6 +1,5 @@
 //! `krawl all`: searches all figures that meet the dimensions.
 
-use super::check::counted;
 use super::digits::ManyDigits;
 use super::edit::say_if_it_moves;
 use super::input::Asked;
@@ -13,6 +12,7 @@ use super::{BAD_INPUT, CLOSED, INCOMPLETE, NOT_PROVED, STOPPED, input, interrupt
 use krawl::blocks::Account;
 use krawl::complete::{Complete, Keep, Options, Progress, Status, Tested, Unserved, all};
 use krawl::constraint::Symmetry;
+use krawl::problem::counted;
 use krawl::report::{
     ProgressLine, complete_to_json, complete_to_table, complete_to_value, conformers_to_table,
     conformers_to_value, digits_to_table, digits_to_value,
@@ -332,7 +332,7 @@ fn check(arguments: &Arguments, (path, cover): (&Path, &[u8]), result: &mut Comp
         return not_passed(format!("NOT PROVED: {flaw}"), NOT_PROVED);
     }
     if verdict.undecided > 0 && result.status == Status::Complete {
-        let left = counted(verdict.undecided as usize, "part", "parts");
+        let left = counted(verdict.undecided as usize, "part");
         return not_passed(
             format!("INCOMPLETE: it leaves {left} undecided"),
             INCOMPLETE,
@@ -343,7 +343,7 @@ fn check(arguments: &Arguments, (path, cover): (&Path, &[u8]), result: &mut Comp
     let text = match result.settle(&verdict) {
         true => format!(
             "\nThe search had left {} open. The check of the certificate in {name} decided all of that, in {seconds:.2} s.\n",
-            counted(left as usize, "part", "parts")
+            counted(left as usize, "part")
         ),
         false => format!(
             "\nThe certificate in {name} was checked in {seconds:.2} s: it proves this again{}.\n",

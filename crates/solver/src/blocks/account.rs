@@ -5,7 +5,7 @@
 //! with the same words, [`Account::clause`], and writes it as the same JSON.
 
 use crate::interval::{Interval, hull, point};
-use crate::problem::{Decimal, Problem, Target};
+use crate::problem::{Decimal, Problem, Target, either};
 use serde::Serialize;
 
 /// Names in one list of a sentence; the others are counted.
@@ -209,8 +209,7 @@ impl Account {
             those.map(|one| one.name.clone()).collect()
         };
         let were = |names: &[String], one: &str, several: &str| {
-            let verb = if names.len() == 1 { one } else { several };
-            format!("{} {verb}", list(names))
+            format!("{} {}", list(names), either(names.len(), one, several))
         };
         let mut parts = Vec::new();
         let met = names(&|one| matches!(one.verdict, Verdict::Met { .. }));
@@ -263,7 +262,7 @@ impl Account {
             parts.push(format!(
                 "{} out, and nothing is proved of {}",
                 were(&unseen, "was left", "were left"),
-                if unseen.len() == 1 { "it" } else { "them" }
+                either(unseen.len(), "it", "them")
             ));
         }
         parts.join("; ")

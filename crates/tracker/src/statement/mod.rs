@@ -17,7 +17,7 @@ pub use formula::{Atom, Formula, Terms};
 pub use joint::{JointSort, Pose};
 pub use names::DEPENDS;
 pub use names::nearest;
-pub use names::{counted, list};
+pub use names::{counted, either, list};
 pub use object::most_along;
 pub use object::{AXES, Constraint, Item, Object, Shape};
 pub use orientation::Orientation;
