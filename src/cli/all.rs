@@ -1,11 +1,10 @@
 //! `krawl all`: searches all figures that meet the dimensions.
 
-use super::check::counted;
 use super::digits::ManyDigits;
 use super::edit::say_if_it_moves;
 use super::input::Asked;
 use super::measured::{Measured, placed};
-use super::output::{self, Beside, Destination, beside, number};
+use super::output::{self, Beside, Destination, Refusal, beside, number};
 use super::pictures::Pictures;
 use super::take::{Candidates, Take, Taken};
 use super::verify::check_cover;
@@ -13,6 +12,7 @@ use super::{BAD_INPUT, CLOSED, INCOMPLETE, NOT_PROVED, STOPPED, input, interrupt
 use krawl::blocks::Account;
 use krawl::complete::{Complete, Keep, Options, Progress, Status, Tested, Unserved, all};
 use krawl::constraint::Symmetry;
+use krawl::problem::counted;
 use krawl::report::{
     ProgressLine, complete_to_json, complete_to_table, complete_to_value, conformers_to_table,
     conformers_to_value, digits_to_table, digits_to_value,
@@ -20,7 +20,6 @@ use krawl::report::{
 use serde_json::{Map, Value};
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 /// Find all real solutions, with a proof that there is no other
@@ -123,7 +122,7 @@ fn share(text: &str) -> Result<[usize; 2], String> {
 }
 
 /// Runs the verb and returns the exit code.
-pub fn run(arguments: &Arguments) -> Result<u8, String> {
+pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
     let (file, sketch) = (&arguments.file, arguments.sketch.as_deref());
     arguments.take.check(file)?;
     let (asked, skeleton) = input::asked(
@@ -145,19 +144,18 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
         && Some(cert) == arguments.json.as_ref()
     {
         let cert = cert.display();
-        return Err(format!(
-            "{cert}: is the file of both --cert and --json; name another one for one of them"
-        ));
+        let what = "is the file of both --cert and --json; name another one for one of them";
+        return Err(format!("{cert}: {what}").into());
     }
     let pictures = arguments.pictures.places([&arguments.file])?;
     // Before any file is begun, so that an interrupt leaves none behind.
-    let cancel = interrupt::flag();
+    interrupt::flag();
     let cert = arguments.cert.as_deref().map(Beside::new).transpose()?;
     let line = ProgressLine::new(!arguments.quiet, "");
     let begin = Instant::now();
     let tell = |now: Progress| line.show_search(now, begin.elapsed().as_secs_f64());
     let options = Options {
-        cancel: Some(cancel),
+        cancel: Some(interrupt::flag()),
         time: arguments.time.map(Duration::from_secs_f64),
         cover: cert.is_some(),
         threads: arguments.threads.unwrap_or(0).into(),
@@ -180,14 +178,13 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
         None => all(&problem, &options),
     };
     line.clear();
-    let mut result = match result {
-        Ok(result) => result,
-        Err(Unserved::Store(what)) => return Err(what),
-        Err(unserved) => {
-            output::complain(&format!("{}: {unserved}", arguments.file.display()));
-            return Ok(STOPPED);
-        }
-    };
+    let mut result = result.map_err(|unserved| match unserved {
+        Unserved::Store(what) => Refusal::from(what),
+        unserved => Refusal {
+            message: format!("{}: {unserved}", arguments.file.display()),
+            code: STOPPED,
+        },
+    })?;
     let mut written = true;
     let mut checked = Checked::default();
     match (&cert, result.cover.take()) {
@@ -199,7 +196,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
                 && is_there
                 && !arguments.no_verify
             {
-                checked = check(arguments, (path, &cover), &mut result, cancel);
+                checked = check(arguments, (path, &cover), &mut result);
             }
         }
         (Some(_), None) => output::complain(match result.reason {
@@ -298,29 +295,23 @@ struct Checked {
 }
 
 /// Checks the certificate that was written, and takes over what it proves beyond the search. Whatever comes of it, the results are there to be told.
-fn check(
-    arguments: &Arguments,
-    (path, cover): (&Path, &[u8]),
-    result: &mut Complete,
-    cancel: &AtomicBool,
-) -> Checked {
+fn check(arguments: &Arguments, (path, cover): (&Path, &[u8]), result: &mut Complete) -> Checked {
     let (name, clock) = (path.display(), Instant::now());
     let complain = |what: String, code: Option<u8>| {
         output::complain(&format!("{name}: {what}"));
         let text = String::new();
         Checked { text, code }
     };
-    let is_ended = || cancel.load(Ordering::Relaxed);
-    let verdict = match is_ended() {
+    let verdict = match interrupt::is_requested() {
         true => None,
         false => Some(check_cover(
             cover,
             arguments.threads,
             arguments.quiet,
-            || !is_ended(),
+            || !interrupt::is_requested(),
         )),
     };
-    let verdict = match verdict.filter(|_| !is_ended()) {
+    let verdict = match verdict.filter(|_| !interrupt::is_requested()) {
         Some(Ok(verdict)) => verdict,
         Some(Err(why)) => {
             let what = format!("the certificate could not be checked: {why}; please report this");
@@ -341,7 +332,7 @@ fn check(
         return not_passed(format!("NOT PROVED: {flaw}"), NOT_PROVED);
     }
     if verdict.undecided > 0 && result.status == Status::Complete {
-        let left = counted(verdict.undecided as usize, "part", "parts");
+        let left = counted(verdict.undecided as usize, "part");
         return not_passed(
             format!("INCOMPLETE: it leaves {left} undecided"),
             INCOMPLETE,
@@ -352,7 +343,7 @@ fn check(
     let text = match result.settle(&verdict) {
         true => format!(
             "\nThe search had left {} open. The check of the certificate in {name} decided all of that, in {seconds:.2} s.\n",
-            counted(left as usize, "part", "parts")
+            counted(left as usize, "part")
         ),
         false => format!(
             "\nThe certificate in {name} was checked in {seconds:.2} s: it proves this again{}.\n",

@@ -6,7 +6,7 @@ use krawl::blocks::{Census, Finding, MOST_POINTS, Surplus, Why, clusters, pinned
 use krawl::edit::{Decomposition, Standing, TooMany};
 use krawl::import::{self, Format};
 use krawl::plan::Plan;
-use krawl::problem::{DEPENDS, FileFault, Object, Problem, Shape, Target};
+use krawl::problem::{DEPENDS, FileFault, Object, Problem, Shape, Target, counted};
 use krawl::remarks::{in_words, moves, remarks};
 use krawl::report::{decomposition_in_words, freedom_of_sketch_in_words};
 use krawl::system::{GaugeError, Homotopy};
@@ -135,12 +135,12 @@ fn describe_sketches(file: &Path, sketch: Option<&str>) -> Result<(String, u8), 
     if listed.len() != 1 && sketch.is_none() {
         let mut text = format!(
             "{} in {name}; take one with --sketch NAME\n",
-            counted(listed.len(), "sketch", "sketches")
+            counted(listed.len(), "sketch")
         );
         for one in &listed {
-            let drawn = counted(one.drawn, "thing drawn", "things drawn");
-            let constraints = counted(one.constraints, "constraint", "constraints");
-            let _ = writeln!(text, "  {}: {drawn}, {constraints}", one.name);
+            let drawn = counted(one.drawn, "thing");
+            let constraints = counted(one.constraints, "constraint");
+            let _ = writeln!(text, "  {}: {drawn} drawn, {constraints}", one.name);
         }
         return Ok((text, CLOSED));
     }
@@ -184,11 +184,6 @@ fn describe_sketches(file: &Path, sketch: Option<&str>) -> Result<(String, u8), 
     }
     text += &blocks_in_words(&blocks);
     Ok((text, exit_code(&census)))
-}
-
-/// `1 sketch`, `2 sketches`.
-pub(super) fn counted(count: usize, one: &str, many: &str) -> String {
-    format!("{count} {}", if count == 1 { one } else { many })
 }
 
 /// How a problem in its own frame falls apart.
@@ -531,7 +526,7 @@ fn describe(
         Some(Ok(found)) => {
             let surplus = census.map_or(0, |census| census.surplus.len());
             let words = freedom_of_sketch_in_words(found);
-            let too_many = counted(surplus, "constraint", "constraints");
+            let too_many = counted(surplus, "constraint");
             match (surplus, words.as_str()) {
                 (0, _) => words,
                 (_, "the input is in order") => format!("over-constrained: {too_many} too many"),

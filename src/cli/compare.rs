@@ -86,8 +86,6 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
         sweep: arguments.sweep,
         limit: arguments.limit,
     };
-    let cancel = interrupt::flag();
-    let is_cancelled = || cancel.load(std::sync::atomic::Ordering::Relaxed);
     let mut all: Vec<Compared> = Vec::new();
     let mut written = true;
     let count = subjects.len();
@@ -97,7 +95,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
         let line = ProgressLine::new(!arguments.quiet, &which);
         let mut show = |now: Progress| line.show(now);
         let mut hooks = Hooks {
-            cancel: Some(cancel),
+            cancel: Some(interrupt::flag()),
             progress: Some(&mut show),
         };
         let result = compare(&subject.problem, &effort, &mut hooks);
@@ -120,7 +118,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
             )?;
         }
         all.push(compared);
-        if is_cancelled() {
+        if interrupt::is_requested() {
             break;
         }
     }
@@ -138,7 +136,9 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
     }
     Ok(match written {
         false => BAD_INPUT,
-        true if is_cancelled() || !all.iter().all(|c| came_to_an_end(&c.comparison)) => STOPPED,
+        true if interrupt::is_requested() || !all.iter().all(|c| came_to_an_end(&c.comparison)) => {
+            STOPPED
+        }
         true => CLOSED,
     })
 }

@@ -1,7 +1,7 @@
 //! `krawl edit`: changes dimensions and takes the figure along.
 
 use super::measured::Measured;
-use super::output::{self, Beside, Destination, beside};
+use super::output::{self, Beside, Destination, Refusal, beside};
 use super::pictures::Pictures;
 use super::take::check_format;
 use super::verify::check_written;
@@ -120,11 +120,7 @@ impl LeftOut {
 }
 
 /// Runs the verb and returns the exit code.
-pub fn run(arguments: &Arguments) -> u8 {
-    output::exit_code(try_run(arguments))
-}
-
-fn try_run(arguments: &Arguments) -> Result<u8, String> {
+pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
     arguments.time.begin();
     if let Some(out) = &arguments.out {
         check_format(&arguments.file, out)?;
@@ -137,15 +133,11 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         ..arguments.left_out.options()
     };
     if arguments.serve {
-        return Ok(
-            match open(&problem, &arguments.file, &options, &mut Control::default())? {
-                Ok(mut session) => match serve::serve(&mut session, &loaded) {
-                    true => CLOSED,
-                    false => BAD_INPUT,
-                },
-                Err(code) => code,
-            },
-        );
+        let mut session = open(&problem, &arguments.file, &options, &mut Control::default())?;
+        return Ok(match serve::serve(&mut session, &loaded) {
+            true => CLOSED,
+            false => BAD_INPUT,
+        });
     }
     let named = arguments.set.iter();
     let named = named.map(|text| Setting::split(&problem, text));
@@ -160,7 +152,8 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         let name = problem.dimension_name(index);
         return Err(in_file(&format!(
             "{name}: under `angles` a file has none of 0 or 180 degrees, nor one beyond that is computed: leave out --out, or say `turns` in the file"
-        )));
+        ))
+        .into());
     }
     let measures = arguments.measured.of(&problem)?;
     let as_turns = asked.in_words(&problem);
@@ -178,18 +171,14 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     let mut led = settings.clone();
     let mut cert = arguments.cert.as_deref();
     if cert.is_some() {
-        match certified(&arguments.file, &problem, |session| {
-            let mut control = interrupt::control();
-            let edited = session.probe(&settings, &mut control);
-            account = Some(edited.account.clone());
+        match certified(&arguments.file, (&problem, &settings), |session| {
+            let edited = session.probe(&settings, &mut interrupt::control());
             astray = edited.astray.as_ref().map(Astray::in_words);
-            reason(&edited).map(str::to_owned)
+            (edited.account.clone(), reason(&edited))
         })? {
-            Some((whole, found)) => {
-                led = carried(&settings, (&problem, &whole)).map_err(|e| in_file(&e))?;
-                // The whole is followed as it is; what it was made from is what the claim is about.
-                account = account.or(Some(found));
-                problem = whole;
+            Some(found) => {
+                (problem, led) = (found.problem, found.settings);
+                account = Some(found.account);
             }
             None => cert = None,
         }
@@ -213,15 +202,12 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
         true => Session::open_with(&problem, &options, &mut control),
         false => Session::open_to_drag(&problem, &options, &mut control),
     };
-    let mut session = match taken(opened, &arguments.file)? {
-        Ok(session) => session,
-        Err(code) => return Ok(code),
-    };
+    let mut session = taken(opened, &arguments.file)?;
     let mut edited = match drags.is_empty() {
         true => session.edit_with(&led, &mut control),
         false => session.drag(&drags, &mut control),
     };
-    if let (Some(account), true) = (account, cert.is_some()) {
+    if let Some(account) = account {
         edited.account = account;
         edited.switched_on.extend(astray);
     }
@@ -281,44 +267,54 @@ fn try_run(arguments: &Arguments) -> Result<u8, String> {
     })
 }
 
-/// The problem that a certificate of edits is about, and what was made of that in the file: what nothing determines is held,
-/// and constraints that seem to follow from others are left out. Where some are, the edits are made part by part first, which
-/// looks at these too; if they stop there, as `stops` tells, no certificate is written, and that is said.
+/// What a certificate of edits is about.
+pub(super) struct Certified {
+    pub problem: Problem,
+    /// The settings, of that problem.
+    pub settings: Vec<Setting>,
+    /// What is proved of the figures.
+    pub account: Account,
+}
+
+/// What a certificate of edits is about, and what was made of that in the file: what nothing determines is held, and constraints that seem
+/// to follow from others are left out. Where some are, the edits are made part by part first, which looks at these too; `tried` tells
+/// what that proves, and if they stop there, why: then no certificate is written, and that is said.
 pub(super) fn certified(
     file: &Path,
-    problem: &Problem,
-    stops: impl FnOnce(&mut Session) -> Option<String>,
-) -> Result<Option<(Problem, Account)>, String> {
-    let (whole, found) = input::provable(file, problem)?;
-    if found.left_out.is_empty() {
-        return Ok(Some((whole, found)));
-    }
-    let session = Session::open(problem);
-    let mut session = session.map_err(|error| in_file(file, &error))?;
-    Ok(match stops(&mut session) {
-        None => Some((whole, found)),
-        Some(reason) => {
+    (problem, settings): (&Problem, &[Setting]),
+    tried: impl FnOnce(&mut Session) -> (Account, Option<String>),
+) -> Result<Option<Certified>, String> {
+    let (whole, mut account) = input::provable(file, problem)?;
+    if !account.left_out.is_empty() {
+        let session = Session::open(problem);
+        let mut session = session.map_err(|error| in_file(file, &error))?;
+        let (proved, stop) = tried(&mut session);
+        if let Some(reason) = stop {
             let text = format!("no certificate was written: {reason}");
             output::complain(&in_file(file, &text));
-            None
+            return Ok(None);
         }
-    })
+        account = proved;
+    }
+    let settings = carried(settings, (problem, &whole)).map_err(|error| in_file(file, &error))?;
+    Ok(Some(Certified {
+        problem: whole,
+        settings,
+        account,
+    }))
 }
 
 /// Why an edit stopped, if it did.
-pub(super) fn reason(edited: &Edited) -> Option<&str> {
+pub(super) fn reason(edited: &Edited) -> Option<String> {
     match &edited.ending {
-        Ending::Stopped(stop) => Some(&stop.text),
+        Ending::Stopped(stop) => Some(stop.text.clone()),
         _ => None,
     }
 }
 
 /// Settings of a problem as those of the one that a certificate is about. Dimensions that are left out of that, as they follow
 /// from others, are not among them; one at least has to be left.
-pub(super) fn carried(
-    settings: &[Setting],
-    (from, to): (&Problem, &Problem),
-) -> Result<Vec<Setting>, String> {
+fn carried(settings: &[Setting], (from, to): (&Problem, &Problem)) -> Result<Vec<Setting>, String> {
     let mut carried = Vec::new();
     for setting in settings {
         match setting.carried(from, to) {
@@ -383,26 +379,25 @@ pub(super) fn say_if_it_moves(problem: &Problem) {
     }
 }
 
-/// Takes the sketch for the figure, or says why it is none: then the exit code.
+/// Takes the sketch for the figure, or says why it is none.
 pub(super) fn open(
     problem: &Problem,
     file: &Path,
     options: &Options,
     control: &mut Control,
-) -> Result<Result<Session, u8>, String> {
+) -> Result<Session, Refusal> {
     taken(Session::open_with(problem, options, control), file)
 }
 
-/// A session, or its exit code where the sketch is no figure, which is said.
-fn taken(opened: Result<Session, OpenError>, file: &Path) -> Result<Result<Session, u8>, String> {
-    match opened {
-        Ok(session) => Ok(Ok(session)),
-        Err(error @ OpenError::Correction { .. }) => {
-            output::complain(&in_file(file, &error));
-            Ok(Err(STOPPED))
-        }
-        Err(error) => Err(in_file(file, &error)),
-    }
+/// A session, unless the sketch is no figure.
+fn taken(opened: Result<Session, OpenError>, file: &Path) -> Result<Session, Refusal> {
+    opened.map_err(|error| Refusal {
+        message: in_file(file, &error),
+        code: match error {
+            OpenError::Correction { .. } => STOPPED,
+            _ => BAD_INPUT,
+        },
+    })
 }
 
 /// The exit code that tells how an edit ended.

@@ -306,10 +306,7 @@ fn prove(explorer: &Explorer, folder: &Path, quiet: bool) -> Result<bool, String
         };
         track::solve_in_best_space(&problem, &track::Options::certified(), &mut control)
             .map_err(|error| format!("{}: {error}", text.display()))?;
-        if control
-            .cancel
-            .is_some_and(|flag| flag.load(std::sync::atomic::Ordering::Relaxed))
-        {
+        if interrupt::is_requested() {
             return Ok(well);
         }
         let whole = writer.finish().map(|_| ());

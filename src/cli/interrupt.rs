@@ -21,6 +21,11 @@ pub fn flag() -> &'static AtomicBool {
     &REQUESTED
 }
 
+/// Whether the end of what runs was asked for.
+pub fn is_requested() -> bool {
+    REQUESTED.load(Ordering::Relaxed)
+}
+
 /// A run that the first Ctrl-C stops.
 pub fn control<'a>() -> Control<'a> {
     Control {

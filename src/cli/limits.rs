@@ -1,7 +1,7 @@
 //! `krawl limits`: how far each dimension can go alone.
 
 use super::edit::{LeftOut, drawn_in_words, open};
-use super::output::{self, Destination, beside};
+use super::output::{self, Destination, Refusal, beside};
 use super::pictures::Pictures;
 use super::{BAD_INPUT, CLOSED, STOPPED, input, interrupt};
 use krawl::edit::{End, Setting};
@@ -42,7 +42,7 @@ pub struct Arguments {
 }
 
 /// Runs the verb and returns the exit code.
-pub fn run(arguments: &Arguments) -> Result<u8, String> {
+pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
     arguments.time.begin();
     let shown = arguments.source.file.display();
     let loaded = arguments.source.load()?;
@@ -58,15 +58,8 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
     let json = beside([&arguments.source.file], arguments.json.as_deref())?;
     let pictures = arguments.pictures.places([&arguments.source.file])?;
     let mut control = interrupt::control();
-    let mut session = match open(
-        problem,
-        &arguments.source.file,
-        &arguments.left_out.options(),
-        &mut control,
-    )? {
-        Ok(session) => session,
-        Err(code) => return Ok(code),
-    };
+    let options = arguments.left_out.options();
+    let mut session = open(problem, &arguments.source.file, &options, &mut control)?;
     let mut ranges: Vec<_> = match only.is_empty() {
         true => session.ranges(&mut control),
         false => only

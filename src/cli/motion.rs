@@ -1,7 +1,7 @@
 //! `krawl motion`: how a figure moves that has one degree of freedom.
 
 use super::measured::Measured;
-use super::output::{self, Destination, beside};
+use super::output::{self, Destination, Refusal, beside};
 use super::pictures::Pictures;
 use super::{BAD_INPUT, CLOSED, OPEN, STOPPED, input, interrupt};
 use krawl::motion::Motion;
@@ -52,7 +52,7 @@ pub struct Arguments {
 }
 
 /// Runs the verb and returns the exit code.
-pub fn run(arguments: &Arguments) -> Result<u8, String> {
+pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
     arguments.time.begin();
     let loaded = arguments.source.load()?;
     let problem = &loaded.problem;
@@ -70,15 +70,13 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
         &Options::certified(),
         &mut control,
     );
-    let mut motion = match motion {
-        Err(_) if control.is_interrupted() => {
-            output::complain("interrupted before anything was proved");
-            return Ok(STOPPED);
-        }
-        motion => {
-            motion.map_err(|error| format!("{}: {error}", arguments.source.file.display()))?
-        }
-    };
+    let mut motion = motion.map_err(|error| match control.is_interrupted() {
+        true => Refusal {
+            message: "interrupted before anything was proved".to_owned(),
+            code: STOPPED,
+        },
+        false => format!("{}: {error}", arguments.source.file.display()).into(),
+    })?;
     // Frames are not all of the way.
     loaded.add_left_out(&mut motion.account, None);
     let mut written = true;

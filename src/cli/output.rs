@@ -19,11 +19,25 @@ pub fn complain(message: &str) {
     let _ = writeln!(io::stderr().lock(), "krawl: {message}");
 }
 
-/// The exit code of a verb: its own, or that of bad input after saying what was wrong with it.
-pub fn exit_code(result: Result<u8, String>) -> u8 {
-    result.unwrap_or_else(|message| {
+/// Why a verb came to nothing, and its exit code: that of bad input, unless something else is wrong.
+pub struct Refusal {
+    pub message: String,
+    pub code: u8,
+}
+
+impl From<String> for Refusal {
+    fn from(message: String) -> Self {
+        let code = super::BAD_INPUT;
+        Refusal { message, code }
+    }
+}
+
+/// The exit code of a verb: its own, or that of a refusal after saying why.
+pub fn exit_code(result: Result<u8, impl Into<Refusal>>) -> u8 {
+    result.unwrap_or_else(|refusal| {
+        let Refusal { message, code } = refusal.into();
         complain(&message);
-        super::BAD_INPUT
+        code
     })
 }
 

@@ -1,8 +1,8 @@
 //! `krawl sweep`: drives a mechanism through a range of one dimension.
 
-use super::edit::{LeftOut, carried, certified, commit, drawn_in_words, exit_code, open, reason};
+use super::edit::{LeftOut, certified, commit, drawn_in_words, exit_code, open, reason};
 use super::measured::Measured;
-use super::output::{self, Beside, Destination, beside};
+use super::output::{self, Beside, Destination, Refusal, beside};
 use super::pictures::Pictures;
 use super::{BAD_INPUT, CLOSED, input, interrupt, table};
 use crate::places::Each as _;
@@ -93,7 +93,7 @@ pub struct Arguments {
 }
 
 /// Runs the verb and returns the exit code.
-pub fn run(arguments: &Arguments) -> Result<u8, String> {
+pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
     arguments.time.begin();
     match (
         &arguments.table,
@@ -108,7 +108,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
 }
 
 /// Drives one dimension through a range.
-fn drive(arguments: &Arguments, vary: &str, ends: [&str; 2]) -> Result<u8, String> {
+fn drive(arguments: &Arguments, vary: &str, ends: [&str; 2]) -> Result<u8, Refusal> {
     let shown = arguments.source.file.display();
     let loaded = arguments.source.load()?;
     let problem = &loaded.problem;
@@ -125,20 +125,16 @@ fn drive(arguments: &Arguments, vary: &str, ends: [&str; 2]) -> Result<u8, Strin
     let mut account = None;
     if cert.is_some() {
         let frames = arguments.frames as usize;
-        match certified(&arguments.source.file, &problem, |session| {
+        let first = &asked.settings[..1];
+        match certified(&arguments.source.file, (&problem, first), |session| {
             let mut control = interrupt::control();
             let sweep = session.sweep(index, (&from, &to), frames, &mut control);
-            account = Some(sweep.account.clone());
-            let last = sweep.end.as_ref().unwrap_or(&sweep.approach);
-            reason(last).map(str::to_owned)
+            let stop = reason(sweep.end.as_ref().unwrap_or(&sweep.approach));
+            (sweep.account, stop)
         })? {
-            Some((whole, found)) => {
-                account = account.or(Some(found));
-                let setting = Setting::new(&problem, index, from.clone());
-                let setting = [setting.map_err(|e| in_file(&e))?];
-                let led = carried(&setting, (&problem, &whole));
-                let led = led.map_err(|e| in_file(&e))?;
-                (problem, index) = (whole, led[0].index);
+            Some(found) => {
+                (problem, index) = (found.problem, found.settings[0].index);
+                account = Some(found.account);
             }
             None => cert = None,
         }
@@ -154,17 +150,10 @@ fn drive(arguments: &Arguments, vary: &str, ends: [&str; 2]) -> Result<u8, Strin
         witness: witness.as_mut().map(|writer| writer as &mut dyn Witness),
         ..interrupt::control()
     };
-    let mut session = match open(
-        &problem,
-        &arguments.source.file,
-        &arguments.left_out.options(),
-        &mut control,
-    )? {
-        Ok(session) => session,
-        Err(code) => return Ok(code),
-    };
+    let options = arguments.left_out.options();
+    let mut session = open(&problem, &arguments.source.file, &options, &mut control)?;
     let mut sweep = session.sweep(index, (&from, &to), arguments.frames as usize, &mut control);
-    if let (Some(account), true) = (account, cert.is_some()) {
+    if let Some(account) = account {
         sweep.account = account;
     }
     for frame in &sweep.frames {

@@ -2,7 +2,7 @@
 
 use super::edit::{drawn_in_words, exit_code, open};
 use super::input::Loaded;
-use super::output::{self, Beside, Destination, beside};
+use super::output::{self, Beside, Destination, Refusal, beside};
 use super::sweep::Arguments;
 use super::{BAD_INPUT, CLOSED, interrupt};
 use krawl::edit::{Asked, Edited, Ending, Session, Setting};
@@ -65,7 +65,7 @@ impl Table {
 }
 
 /// Drives the dimensions of a table, and returns the exit code.
-pub(super) fn run(arguments: &Arguments, file: &Path) -> Result<u8, String> {
+pub(super) fn run(arguments: &Arguments, file: &Path) -> Result<u8, Refusal> {
     let loaded = arguments.source.load()?;
     let table = Table::read(file)?;
     let cells = table
@@ -84,10 +84,7 @@ pub(super) fn run(arguments: &Arguments, file: &Path) -> Result<u8, String> {
     }
     let mut control = interrupt::control();
     let options = arguments.left_out.options();
-    let mut session = match open(problem, &arguments.source.file, &options, &mut control)? {
-        Ok(session) => session,
-        Err(code) => return Ok(code),
-    };
+    let mut session = open(problem, &arguments.source.file, &options, &mut control)?;
     let (mut account, mut end, mut written) = (session.account(), None, true);
     let mut frames: Vec<(Vec<Interval>, Vec<[Interval; 3]>, Vec<Located>)> = Vec::new();
     for (number, settings) in asked.settings.chunks(columns).enumerate() {

@@ -82,10 +82,11 @@ fn check(arguments: &Arguments) -> Result<u8, String> {
         let mut bytes = Vec::new();
         let read = file.read_to_end(&mut bytes);
         read.map_err(|e| format!("{name}: cannot be read: {e}"))?;
-        return match contents {
-            Contents::Cover => verify_the_cover(arguments, &bytes, of_file),
-            _ => verify_the_set(arguments, &bytes, of_file),
+        let proved = match contents {
+            Contents::Cover => verify_the_cover(arguments, &bytes)?,
+            _ => verify_the_set(arguments, &bytes)?,
         };
+        return Ok(conclude(arguments, proved, of_file));
     }
     let settings = Settings {
         threads: arguments.threads.unwrap_or(0).into(),
@@ -206,18 +207,21 @@ fn held_and_left_out(found: &Account) -> String {
     }
 }
 
-/// Prints what was proved of a set of solutions, and whether it is about the same as the problem file, if there is one, as `is_about` tells
-/// by what is `compared`. The exit code is `code` where it is.
-fn conclude(
-    arguments: &Arguments,
-    mut text: String,
-    of_file: OfFile,
-    (is_about, compared): (impl Fn(&Problem) -> bool, Compared),
+/// What was proved of a set of solutions.
+struct Proved {
+    text: String,
+    /// The exit code where it is about the same as the problem file, if there is one, as `is_about` tells by what is `compared`.
     code: u8,
-) -> u8 {
-    let (same, found) = compare(of_file, is_about);
+    is_about: Box<dyn Fn(&Problem) -> bool>,
+    compared: Compared,
+}
+
+/// Prints what was proved, and whether it is about the same as the problem file, if there is one.
+fn conclude(arguments: &Arguments, proved: Proved, of_file: OfFile) -> u8 {
+    let mut text = proved.text;
+    let (same, found) = compare(of_file, proved.is_about);
     if let Some(file) = &arguments.file {
-        let (what, which, sketch) = match compared {
+        let (what, which, sketch) = match proved.compared {
             Compared::Distances => (
                 "names of the points and the distances",
                 "names of the points or the distances",
@@ -243,13 +247,13 @@ fn conclude(
     }
     match arguments.quiet || output::print(&(text + without_signs(of_file))) {
         false => BAD_INPUT,
-        true if same => code,
+        true if same => proved.code,
         true => REFUTED,
     }
 }
 
 /// Checks a set of complex solutions.
-fn verify_the_set(arguments: &Arguments, bytes: &[u8], of_file: OfFile) -> Result<u8, String> {
+fn verify_the_set(arguments: &Arguments, bytes: &[u8]) -> Result<Proved, String> {
     let clock = Instant::now();
     let verdict = super::in_pool(arguments.threads, || verify_complex_set(bytes))?;
     let verdict = verdict.map_err(|error| format!("{}: {error}", arguments.cert.display()))?;
@@ -259,19 +263,16 @@ fn verify_the_set(arguments: &Arguments, bytes: &[u8], of_file: OfFile) -> Resul
         Some(ComplexFlaw::False(_)) => REFUTED,
         Some(ComplexFlaw::NotProved(_)) => NOT_PROVED,
     };
-    let is_about = |problem: &Problem| verdict.is_about(problem);
-    let compared = verdict.compared();
-    Ok(conclude(
-        arguments,
+    Ok(Proved {
         text,
-        of_file,
-        (is_about, compared),
         code,
-    ))
+        compared: verdict.compared(),
+        is_about: Box::new(move |problem| verdict.is_about(problem)),
+    })
 }
 
 /// Checks what a search for all solutions left.
-fn verify_the_cover(arguments: &Arguments, bytes: &[u8], of_file: OfFile) -> Result<u8, String> {
+fn verify_the_cover(arguments: &Arguments, bytes: &[u8]) -> Result<Proved, String> {
     let clock = Instant::now();
     let verdict = check_cover(bytes, arguments.threads, arguments.quiet, || true);
     let verdict = verdict.map_err(|error| format!("{}: {error}", arguments.cert.display()))?;
@@ -281,15 +282,12 @@ fn verify_the_cover(arguments: &Arguments, bytes: &[u8], of_file: OfFile) -> Res
         true => CLOSED,
         false => INCOMPLETE,
     };
-    let is_about = |problem: &Problem| verdict.is_about(problem);
-    let compared = verdict.compared();
-    Ok(conclude(
-        arguments,
+    Ok(Proved {
         text,
-        of_file,
-        (is_about, compared),
         code,
-    ))
+        compared: verdict.compared(),
+        is_about: Box::new(move |problem| verdict.is_about(problem)),
+    })
 }
 
 /// Checks a cover, and shows where it is, for as long as `goes_on` says so.

@@ -1,8 +1,8 @@
 //! How well reported figures meet the constraints.
 
 use crate::interval::rounding::largest;
-use crate::interval::{Interval, enclose, point};
-use crate::problem::{Problem, Target};
+use crate::interval::{Interval, point};
+use crate::problem::Problem;
 use crate::system::Homotopy;
 use crate::track::Solution;
 
@@ -32,10 +32,7 @@ fn of_distances(problem: &Problem, solution: &Solution) -> f64 {
     let distances = problem.distances.iter().map(|distance| {
         let [p, q] = distance.points.map(|p| &solution.points[p]);
         let squared = (0..3).fold(point(0.0), |sum, k| sum + (p[k] - q[k]).sqr());
-        let target = match &distance.target {
-            Target::Length(length) => enclose(length).sqr(),
-            Target::SquaredLength(squared) => enclose(squared),
-        };
+        let target = distance.target.enclose_squared();
         ((squared - target) / target).mag()
     });
     distances.fold(0.0, largest)

@@ -5,6 +5,7 @@
 
 use super::follow::{Job, Limits};
 use super::record::{PathRecord, Sketch};
+use super::way::bent;
 use super::{ExploreError, Share};
 use crate::hexadecimal::hexadecimal;
 use crate::problem::{Decimal, Problem};
@@ -47,15 +48,25 @@ fn hash(text: &str) -> String {
 const UNIT: &str = "work unit";
 const RESULT: &str = "work result";
 
+impl Head {
+    /// Of a file of this kind about a share, without its problem.
+    fn of(share: &Share, kind: &str) -> Self {
+        Head {
+            krawl: kind.to_owned(),
+            version: VERSION,
+            problem: None,
+            sha256: hash(&share.problem),
+            sketches: share.sketches.len(),
+        }
+    }
+}
+
 impl Share {
     /// The text of a unit's file.
     pub fn write(&self) -> String {
         let head = Head {
-            krawl: UNIT.to_owned(),
-            version: VERSION,
             problem: Some(self.problem.clone()),
-            sha256: hash(&self.problem),
-            sketches: self.sketches.len(),
+            ..Head::of(self, UNIT)
         };
         let mut text = json(&head);
         for (sketch, bend, coefficient) in &self.sketches {
@@ -143,15 +154,9 @@ pub fn work(
             .with_max_len(1)
             .filter(|(sketch, ..)| !known.contains(&sketch.id))
             .try_for_each(|(sketch, bend, coefficient)| {
-                let mut of_sketch = problem.clone();
-                if let Some(places) = sketch.places() {
-                    super::way::set_sketch(&mut of_sketch, places);
-                }
-                of_sketch.homotopy.bend = *bend;
-                of_sketch.homotopy.bend_coefficient = coefficient.clone();
                 let job = Job {
                     sketch: sketch.clone(),
-                    problem: of_sketch,
+                    problem: bent(problem, sketch.places(), (*bend, coefficient)),
                     candidates: Vec::new(),
                 };
                 let Some(record) = job.run(limits) else {
@@ -182,14 +187,7 @@ fn go_on(file: &mut File, share: &Share) -> Result<BTreeSet<u64>, String> {
         .and_then(|()| file.seek(SeekFrom::End(0)))
         .map_err(|e| e.to_string())?;
     if text.is_empty() {
-        let head = Head {
-            krawl: RESULT.to_owned(),
-            version: VERSION,
-            problem: None,
-            sha256: hash(&share.problem),
-            sketches: share.sketches.len(),
-        };
-        file.write_all(json(&head).as_bytes())
+        file.write_all(json(&Head::of(share, RESULT)).as_bytes())
             .map_err(|e| e.to_string())?;
         return Ok(BTreeSet::new());
     }

@@ -67,22 +67,24 @@ impl Way {
 
     /// The problem with another sketch, or its own, and this way's bend.
     pub fn problem(&self, problem: &Problem, sketch: Option<&[[f64; 3]]>) -> Problem {
-        let mut of = problem.clone();
-        if let Some(sketch) = sketch {
-            set_sketch(&mut of, sketch);
-        }
-        of.homotopy.bend = self.bend;
-        of.homotopy.bend_coefficient = self.coefficient.clone();
-        of
+        bent(problem, sketch, (self.bend, &self.coefficient))
     }
 }
 
-/// Puts the points of a problem's sketch to other places.
-pub fn set_sketch(of: &mut Problem, places: &[[f64; 3]]) {
+/// The problem with its own sketch or another one, in which this length bends by this coefficient.
+pub fn bent(
+    problem: &Problem,
+    sketch: Option<&[[f64; 3]]>,
+    (bend, coefficient): (usize, &Decimal),
+) -> Problem {
+    let mut of = problem.clone();
     let decimal = |x: f64| Decimal::try_from(x).unwrap_or_else(|_| Decimal::from(0));
-    for (point, place) in of.points.iter_mut().zip(places) {
+    for (point, place) in of.points.iter_mut().zip(sketch.into_iter().flatten()) {
         point.sketch = place.map(decimal);
     }
+    of.homotopy.bend = bend;
+    of.homotopy.bend_coefficient = coefficient.clone();
+    of
 }
 
 /// Whether a path can set out from a sketch: joined points are apart, the reference is not in line, and the

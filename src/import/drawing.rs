@@ -1,5 +1,6 @@
 //! A sketch as it is read, in krawl's words.
 
+use super::{Imported, Places};
 use crate::constraint::KINDS;
 use crate::order::InOrder;
 use crate::places::Each as _;
@@ -35,14 +36,6 @@ pub struct Drawing {
 struct Tangent {
     edges: [usize; 2],
     source: Source,
-}
-
-/// A finished drawing.
-pub struct Finished {
-    pub problem: Problem,
-    pub unsupported: BTreeMap<String, usize>,
-    /// For each distance, then each constraint, what of the file it is.
-    pub sources: Vec<Option<Source>>,
 }
 
 impl Drawing {
@@ -233,8 +226,8 @@ impl Drawing {
         })
     }
 
-    /// The problem.
-    pub fn finish(mut self, name: String, source: String) -> Finished {
+    /// The sketch, of which the numbers stand in these places.
+    pub fn finish(mut self, name: String, source: &str, places: Places) -> Imported {
         for Tangent { edges, source } in std::mem::take(&mut self.tangents) {
             if let Some([a, b]) = self.shared(edges)
                 && self.touch_at(source, [(edges[0], a), (edges[1], b)])
@@ -267,7 +260,7 @@ impl Drawing {
         let problem = Problem {
             name,
             dimension: 2,
-            source,
+            source: source.to_owned(),
             points,
             objects: self.objects,
             orientations: Vec::new(),
@@ -284,9 +277,14 @@ impl Drawing {
             measures: Vec::new(),
             parameters: Vec::new(),
         };
-        Finished {
+        Imported {
             problem,
             unsupported: self.unsupported,
+            surplus: None,
+            skeleton: None,
+            notes: Vec::new(),
+            tied: Vec::new(),
+            places,
             sources,
         }
     }

@@ -5,8 +5,8 @@
 //! mean is that of FreeCAD's `Sketch.cpp` and planegcs; expressions are not evaluated, as their values are stored, but which
 //! dimensions they tie to which others is said.
 
-use super::drawing::{Drawing, Finished};
-use super::{Changed, Figure, Imported, Listed, Places as AllPlaces, Tied};
+use super::drawing::Drawing;
+use super::{Figure, Imported, Listed, Places as AllPlaces, Tied};
 use crate::order::InOrder;
 use crate::places::Each as _;
 use crate::problem::{Item, Problem, Shape};
@@ -164,8 +164,6 @@ pub struct Places {
     numbers: Vec<(Range<usize>, Number, f64)>,
     /// For each constraint of the file where its value is.
     values: Vec<Range<usize>>,
-    /// For each distance, then each constraint, what of the file it is.
-    pub sources: Vec<Option<usize>>,
 }
 
 struct Reader {
@@ -594,11 +592,11 @@ fn names(text: &str, name: &str, number: usize) -> bool {
 }
 
 /// The dimensions that expressions of the sketch compute.
-fn tied(object: Node, sources: &[Option<usize>], problem: &Problem) -> Vec<Tied> {
+fn tied(object: Node, imported: &Imported) -> Vec<Tied> {
     let constraints = constraints(object);
     let named = |text: &str| -> Vec<usize> {
-        let all = problem.dimensions().filter(|&index| {
-            sources[index].is_some_and(|source| {
+        let all = imported.problem.dimensions().filter(|&index| {
+            imported.sources[index].is_some_and(|source| {
                 let name = constraints[source].attribute("Name").unwrap_or("");
                 names(text, name, source)
             })
@@ -672,26 +670,13 @@ pub fn read(bytes: &[u8], index: usize) -> Result<Imported, String> {
             reader.drawing.refuse(&kind);
         }
     }
-    let source = "a FreeCAD file".to_owned();
-    let Finished {
-        problem,
-        unsupported,
-        sources,
-    } = reader.drawing.finish(name, source);
-    let tied = tied(object, &sources, &problem);
-    Ok(Imported {
-        notes: Vec::new(),
-        tied,
-        problem,
-        unsupported,
-        surplus: None,
-        skeleton: None,
-        places: AllPlaces::FreeCad(Places {
-            numbers: reader.numbers,
-            values,
-            sources,
-        }),
-    })
+    let places = AllPlaces::FreeCad(Places {
+        numbers: reader.numbers,
+        values,
+    });
+    let mut imported = reader.drawing.finish(name, "a FreeCAD file", places);
+    imported.tied = tied(object, &imported);
+    Ok(imported)
 }
 
 pub fn rewrite(
@@ -729,22 +714,15 @@ pub fn rewrite(
             changes.push((range.clone(), now));
         }
     }
-    for changed in super::changed(imported, problem, &places.sources) {
-        let Changed {
-            index,
-            source,
-            value,
-            before,
-        } = changed?;
-        let range = places.values.get(source).cloned().unwrap_or(0..0);
+    for changed in super::changed(imported, problem) {
+        let changed = changed?;
+        let range = places.values.get(changed.source).cloned();
+        let range = range.unwrap_or(0..0);
         let said: f64 = text
             .get(range.clone())
             .and_then(|x| x.parse().ok())
             .unwrap_or(f64::NAN);
-        let is_angle = index
-            .checked_sub(problem.distances.len())
-            .is_some_and(|c| problem.constraints[c].kind == "angles");
-        let value = if is_angle {
+        let value = if changed.is_angle {
             // As far from the old one as the figure turns, in the file's own sense.
             let old = degrees(said);
             let folded = old.abs() % 360.0;
@@ -753,11 +731,11 @@ pub fn rewrite(
             } else {
                 old.signum()
             };
-            (old + sense * (value - before)).to_radians()
-        } else if said * before < 0.0 {
-            -value
+            (old + sense * (changed.value - changed.before)).to_radians()
+        } else if said * changed.before < 0.0 {
+            -changed.value
         } else {
-            value
+            changed.value
         };
         changes.push((range, value));
     }

@@ -103,6 +103,8 @@ pub struct Imported {
     /// Dimensions that the file's own program computes.
     pub tied: Vec<Tied>,
     places: Places,
+    /// Of a sketch: for each distance, then each constraint, what of the file it is.
+    sources: Vec<Option<usize>>,
 }
 
 /// A dimension that its own program computes by an expression. krawl does not: an edit leaves it as it is.
@@ -278,13 +280,8 @@ impl Imported {
     /// Whether a dimension, by index, is a number that the file has for this sketch: radii of geometry of other groups and
     /// objects, which stay as they are, are not.
     pub fn has_number(&self, index: usize) -> bool {
-        let sources = match &self.places {
-            Places::SolveSpace(places) => &places.sources,
-            #[cfg(feature = "freecad")]
-            Places::FreeCad(places) => &places.sources,
-            Places::Molecule(_) => return true,
-        };
-        sources.get(index).is_some_and(Option::is_some)
+        matches!(self.places, Places::Molecule(_))
+            || self.sources.get(index).is_some_and(Option::is_some)
     }
 }
 
@@ -308,20 +305,15 @@ fn value(problem: &Problem, index: usize) -> f64 {
 
 /// A dimension that has another value than the file.
 struct Changed {
-    index: usize,
+    is_angle: bool,
     /// What of the file it is.
     source: usize,
     value: f64,
     before: f64,
 }
 
-/// The dimensions that have another value in `now`; `sources`: for each what of the file it is, of which some are nothing that
-/// can be changed.
-fn changed(
-    imported: &Imported,
-    now: &Problem,
-    sources: &[Option<usize>],
-) -> impl Iterator<Item = Result<Changed, String>> {
+/// The dimensions that have another value in `now`, of which some are nothing of the file that can be changed.
+fn changed(imported: &Imported, now: &Problem) -> impl Iterator<Item = Result<Changed, String>> {
     let before = &imported.problem;
     let lengths = before.distances.iter().zip(&now.distances);
     let lengths = lengths.map(|(a, b)| a.target != b.target);
@@ -329,15 +321,16 @@ fn changed(
     let others = others.map(|(a, b)| a.value != b.value);
     let indices = lengths.chain(others).enumerate();
     indices.filter(|(_, is_new)| *is_new).map(move |(index, _)| {
-        let source = sources.get(index).copied().flatten();
+        let source = imported.sources.get(index).copied().flatten();
         let source = source.ok_or_else(|| {
             format!(
                 "`{}` is of geometry of another group or object, which stays as it is: there is no number of this sketch to change",
                 now.dimension_name(index)
             )
         })?;
+        let constraint = index.checked_sub(now.distances.len());
         Ok(Changed {
-            index,
+            is_angle: constraint.is_some_and(|c| now.constraints[c].kind == "angles"),
             source,
             value: value(now, index),
             before: value(before, index),

@@ -5,8 +5,8 @@
 //! groups) stays where it is, seen in the group's work plane. Zero values are left out of the file. What constraints
 //! mean is that of SolveSpace's `constrainteq.cpp`.
 
-use super::drawing::{Drawing, Finished, SNAP};
-use super::{Changed, Figure, Imported, Listed, Places as AllPlaces};
+use super::drawing::{Drawing, SNAP};
+use super::{Figure, Imported, Listed, Places as AllPlaces};
 use crate::interval::vector::{cross, dot, minus};
 use crate::order::each_once;
 use crate::places::{Each as _, array};
@@ -247,10 +247,8 @@ pub struct Places {
     plane: Plane,
     /// For each point that can move its parameters and its entity.
     points: Vec<Option<([Handle; 2], Handle)>>,
-    /// For each object, if it is a circle, its parameter and the entity of its radius.
-    radii: Vec<Option<(Handle, Handle)>>,
-    /// For each distance, then each constraint, what of the file it is.
-    pub sources: Vec<Option<usize>>,
+    /// For each circle, by object, the parameter and the entity of its radius.
+    radii: HashMap<usize, (Handle, Handle)>,
 }
 
 pub fn list(bytes: &[u8]) -> Result<Vec<Listed>, String> {
@@ -834,28 +832,12 @@ pub fn read(bytes: &[u8], index: usize) -> Result<Imported, String> {
         radii,
         ..
     } = reader;
-    let source = "a SolveSpace file".to_owned();
-    let Finished {
-        problem,
-        unsupported,
-        sources,
-    } = drawing.finish(name.clone(), source);
-    Ok(Imported {
-        notes: Vec::new(),
-        tied: Vec::new(),
-        unsupported,
-        surplus: None,
-        skeleton: None,
-        places: AllPlaces::SolveSpace(Places {
-            plane,
-            points: places,
-            radii: (0..problem.objects.len())
-                .map(|o| radii.get(&o).copied())
-                .collect(),
-            sources,
-        }),
-        problem,
-    })
+    let places = AllPlaces::SolveSpace(Places {
+        plane,
+        points: places,
+        radii,
+    });
+    Ok(drawing.finish(name.clone(), "a SolveSpace file", places))
 }
 
 pub fn rewrite(
@@ -889,8 +871,8 @@ pub fn rewrite(
             edits.number(record, &format!("actPoint.{axis}"), value);
         }
     }
-    for (place, &radius) in places.radii.iter().zip(figure.radii) {
-        let Some((param, entity)) = place else {
+    for (object, &radius) in figure.radii.iter().enumerate() {
+        let Some((param, entity)) = places.radii.get(&object) else {
             continue;
         };
         let record = contents.record("Param", *param);
@@ -900,25 +882,17 @@ pub fn rewrite(
             edits.number(record, "actDistance", radius);
         }
     }
-    for changed in super::changed(imported, problem, &places.sources) {
-        let Changed {
-            index,
-            source,
-            value,
-            before,
-        } = changed?;
-        let record = contents
-            .records
-            .get(source)
-            .ok_or_else(|| missing("a constraint"))?;
-        let constraint = index.checked_sub(problem.distances.len());
-        let value = match constraint.map(|c| &*problem.constraints[c].kind) {
+    for changed in super::changed(imported, problem) {
+        let changed = changed?;
+        let record = contents.records.get(changed.source);
+        let record = record.ok_or_else(|| missing("a constraint"))?;
+        let value = match changed.is_angle {
             // Without a sense of turn, which the places of points tell.
-            Some("angles") => 180.0 - (value.rem_euclid(360.0) - 180.0).abs(),
-            _ => value,
+            true => 180.0 - (changed.value.rem_euclid(360.0) - 180.0).abs(),
+            false => changed.value,
         };
         // A distance from a line has a sign in the file, a projection that of its line.
-        let sign = if record.number("valA") * before < 0.0 {
+        let sign = if record.number("valA") * changed.before < 0.0 {
             -1.0
         } else {
             1.0

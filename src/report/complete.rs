@@ -11,7 +11,7 @@ use crate::certificate::cover::CoverVerdict;
 use crate::complete::{Among, Choice, Complete, Constructed, Method, Status, Tested, Why};
 use crate::constraint::{Symmetry, symmetry};
 use crate::interval::Interval;
-use crate::problem::{Object, Problem, Shape, counted, list};
+use crate::problem::{Object, Problem, Shape, counted, either, list};
 use crate::track::{Mode, Signed};
 use std::fmt::Write;
 
@@ -536,7 +536,7 @@ pub(super) fn tested_in_words(tested: &Tested) -> String {
     };
     let mut parts = Vec::new();
     if tested.met > 0 {
-        let meet = if tested.met == 1 { "meets" } else { "meet" };
+        let meet = either(tested.met, "meets", "meet");
         parts.push(format!(
             "{} {meet} {others} within {}",
             tested.met,
@@ -544,15 +544,9 @@ pub(super) fn tested_in_words(tested: &Tested) -> String {
         ));
     }
     if tested.missed > 0 {
-        let (miss, are) = match tested.missed {
-            1 => ("misses", "is no solution"),
-            _ => ("miss", "are no solutions"),
-        };
-        let one = if left_out == 1 {
-            &others
-        } else {
-            "one of them"
-        };
+        let miss = either(tested.missed, "misses", "miss");
+        let are = either(tested.missed, "is no solution", "are no solutions");
+        let one = either(left_out, &others, "one of them");
         let by = rounded_down(tested.by);
         parts.push(format!(
             "{} {miss} {one} by at least {by} and {are}",

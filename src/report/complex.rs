@@ -9,7 +9,7 @@ use crate::complex::{Lowered, Nature, SolutionBox, Solutions, Status};
 use crate::constraint::{Symmetry, symmetry};
 use crate::interval::{Interval, point};
 use crate::places::Each as _;
-use crate::problem::{Problem, counted, list};
+use crate::problem::{Problem, counted, either, list};
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
 
@@ -70,10 +70,11 @@ fn no_figures(lowered: &Lowered, result: &Solutions) -> String {
         return String::new();
     };
     let real = of.iter().filter(|(_, nature)| *nature == Nature::Real);
-    let be = match of.len() {
-        1 => "is no figure, as far as its box tells",
-        _ => "are no figures, as far as their boxes tell",
-    };
+    let be = either(
+        of.len(),
+        "is no figure, as far as its box tells",
+        "are no figures, as far as their boxes tell",
+    );
     format!(
         " {} of them ({} of the real ones) {be}: {vector} vanishes there, and a constraint needs its direction.",
         of.len(),
@@ -366,10 +367,7 @@ fn departures(out: &mut String, problem: &Problem, result: &Solutions) -> std::f
     )?;
     for Departure { split, figures } in &result.departures {
         let go = list(&names(problem, &split.inside), 4);
-        let verb = match split.inside.len() {
-            1 => "goes",
-            _ => "go",
-        };
+        let verb = either(split.inside.len(), "goes", "go");
         writeln!(
             out,
             "  {} where {go} {verb} away, as {}",
@@ -478,7 +476,7 @@ fn general_theorem(verdict: &ComplexVerdict, took: std::time::Duration) -> Strin
 fn at_infinity(verdict: &ComplexVerdict) -> String {
     let departures = verdict.at_infinity.iter().map(|(points, count)| {
         let names = names(&verdict.problem, points).join(", ");
-        let verb = if points.len() == 1 { "goes" } else { "go" };
+        let verb = either(points.len(), "goes", "go");
         format!("{} where {names} {verb} away", counted(*count, "figure"))
     });
     departures.collect::<Vec<_>>().join(", ") + ", up to isometry"
@@ -495,7 +493,7 @@ fn natures(lowered: &Lowered, result: &Solutions) -> String {
         true => ("", "equal to their conjugates with directions reversed"),
         false => ("Up to isometry ", "congruent to their conjugates"),
     };
-    let are = if real == 1 { "is" } else { "are" };
+    let are = either(real, "is", "are");
     let mut text = format!("{up_to}{real} {are} real, {pairs} in pairs of conjugates");
     if own > 0 {
         text += &format!(", {own} {congruent} without being real");

@@ -14,7 +14,7 @@ use crate::edit::{
 use crate::interval::Interval;
 use crate::interval::vector::length;
 use crate::order::InOrder;
-use crate::problem::{Decimal, Object, Problem, Shape, counted, list};
+use crate::problem::{Decimal, Object, Problem, Shape, counted, either, list};
 use crate::system::Located;
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
@@ -195,10 +195,8 @@ fn dragged_in_words(problem: &Problem, edited: &Edited, dragged: &Dragged) -> St
                 1 => "straight".to_owned(),
                 legs => format!("in {legs} straight legs"),
             };
-            let (are, they) = match dragged.led.len() {
-                1 => ("is", "it is"),
-                _ => ("are", "they are"),
-            };
+            let led = dragged.led.len();
+            let (are, they) = (either(led, "is", "are"), either(led, "it is", "they are"));
             let scope = behind(", ", account.scope());
             format!(
                 "the figure is the one and only continuation of the old one as {} {are} led {how} to where {they} now{scope}",

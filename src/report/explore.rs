@@ -194,7 +194,7 @@ fn write_table(out: &mut String, explored: &Explored, coordinates: bool) -> std:
     let (problem, contents) = (explored.problem(), explored.explorer.contents());
     let (counts, found) = (explored.counts(), contents.classes.len());
     writeln!(out, "{}: {}", problem.name, explored.verdict())?;
-    let waiting = sketches(counts.waiting);
+    let waiting = counted(counts.waiting, "sketch");
     match explored.finish {
         Some(Finish::Ended) => {
             let idle = contents.state.idle + 1;
@@ -215,7 +215,7 @@ fn write_table(out: &mut String, explored: &Explored, coordinates: bool) -> std:
         Some(Finish::Shared(count)) => writeln!(
             out,
             "{} left in work units: `krawl merge` takes their results, `--take-back` follows them here.",
-            sketches(count)
+            counted(count, "sketch")
         )?,
         None => {}
     }
@@ -302,13 +302,6 @@ fn write_table(out: &mut String, explored: &Explored, coordinates: bool) -> std:
         writeln!(out, "\n{DIGITS}")?;
     }
     Ok(())
-}
-
-fn sketches(count: usize) -> String {
-    match count {
-        1 => "1 sketch".to_owned(),
-        _ => format!("{count} sketches"),
-    }
 }
 
 #[derive(Serialize)]

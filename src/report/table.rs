@@ -9,7 +9,7 @@ use crate::complete::Tested;
 use crate::constraint::{Symmetry, symmetry};
 use crate::interval::{Interval, hull};
 use crate::order::each_once;
-use crate::problem::{Problem, Shape, counted, list};
+use crate::problem::{Problem, Shape, counted, either, list};
 use crate::remarks::moves;
 use crate::system::Located;
 use crate::track::{EndKind, Mode, Outcome, PathEnd, Solution, Space, Status};
@@ -336,17 +336,17 @@ pub fn signed_in_words(these: &str, outcome: &Outcome) -> String {
         return String::new();
     };
     let count = outcome.solutions.len();
-    let have = if count == 1 { "has" } else { "have" };
+    let have = either(count, "has", "have");
     let mut parts = vec![format!("{count} {have} {}", signs_in_words(signed.asked))];
     if signed.mirrored > 0 {
         parts[0] += ", or their mirror images have, which are listed then";
     }
     if signed.wrong > 0 {
-        let are = if signed.wrong == 1 {
-            "has not and is no solution"
-        } else {
-            "have not and are no solutions"
-        };
+        let are = either(
+            signed.wrong as usize,
+            "has not and is no solution",
+            "have not and are no solutions",
+        );
         parts.push(format!("{} {are}", signed.wrong));
     }
     if signed.undecided > 0 {
@@ -357,11 +357,11 @@ pub fn signed_in_words(these: &str, outcome: &Outcome) -> String {
     }
     let again = signed.found - signed.wrong - signed.undecided - count as u64;
     if again > 0 {
-        let are = if again == 1 {
-            "is the mirror image of one"
-        } else {
-            "are mirror images of some"
-        };
+        let are = either(
+            again as usize,
+            "is the mirror image of one",
+            "are mirror images of some",
+        );
         parts.push(format!("{again} {are} of them and the same figure then"));
     }
     format!(" Of {these} {}.", parts.join("; "))
@@ -399,8 +399,7 @@ fn verdict_of_a_part(
 fn solutions(count: usize) -> String {
     match count {
         0 => "no solution".to_owned(),
-        1 => "1 solution".to_owned(),
-        n => format!("{n} solutions"),
+        n => counted(n, "solution"),
     }
 }
 

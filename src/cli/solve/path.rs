@@ -8,7 +8,6 @@ use krawl::problem::Problem;
 use krawl::report::ProgressLine;
 use krawl::track::{self, Control, First, Outcome, Progress, Signs, Status, Trace, Witness};
 use std::io::BufWriter;
-use std::sync::atomic::Ordering;
 
 /// Figures along a path for a page: smooth, and not too much to load.
 pub(super) fn samples_for(problem: &Problem) -> usize {
@@ -26,16 +25,14 @@ pub(super) fn follow(
     trace: Option<&mut Trace>,
 ) -> Result<(Outcome, bool, Option<u8>), String> {
     let options = arguments.options();
-    let cancel = interrupt::flag();
     let mut witness = cert.map(|beside| Writer::new(BufWriter::new(beside.file()), problem));
     let line = ProgressLine::new(!arguments.quiet, which);
     let mut show = |now: Progress| line.show(now);
     let mut control = Control {
-        cancel: Some(cancel),
         progress: Some(&mut show),
         witness: witness.as_mut().map(|writer| writer as &mut dyn Witness),
         trace,
-        ..Control::default()
+        ..interrupt::control()
     };
     let outcome = match arguments.space {
         Some(_) => track::solve(problem, &options, &mut control),
@@ -51,7 +48,7 @@ pub(super) fn follow(
         // A sketch that no run can leave is singular in any precision.
         && outcome.steps > 0
         && let Status::Stopped(reason) = &mut outcome.status
-        && !cancel.load(Ordering::Relaxed)
+        && !interrupt::is_requested()
     {
         reason.text += "; the full space has extended precision (`--space full`)";
     }
@@ -60,7 +57,7 @@ pub(super) fn follow(
         written &= beside.commit(writer.finish().map(|_| ()));
         if written && !arguments.no_verify {
             let path = arguments.cert.as_deref();
-            let path = path.filter(|_| !cancel.load(Ordering::Relaxed));
+            let path = path.filter(|_| !interrupt::is_requested());
             let closed = matches!(outcome.status, Status::Closed);
             verdict = check_written(path, closed, arguments.quiet)?;
         }

@@ -23,7 +23,6 @@ use krawl::report::{
 use krawl::track::{Control, Limit, Options, Outcome, Signs, Status, Trace};
 use serde_json::Value;
 use std::path::Path;
-use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
 /// Where results go, and what came of all files so far.
@@ -195,7 +194,7 @@ impl Told<'_> {
         (file, which): (&Path, &str),
         gap: &str,
     ) -> Result<bool, String> {
-        let (arguments, problem, cancel) = (self.arguments, &asked.problem, interrupt::flag());
+        let (arguments, problem) = (self.arguments, &asked.problem);
         let name = input::name(file);
         let measures = arguments.measured.of(problem)?;
         let is_certified = arguments.mode == Mode::Certified;
@@ -226,8 +225,7 @@ impl Told<'_> {
         let struck = signed.wrong + signed.undecided + signed.mirrored as u64 + missed;
         // Signs may be of points of several blocks.
         let is_plain = tested.is_none() && problem.orientations.is_empty();
-        let can_be_cut =
-            is_certified && !arguments.first && !cancel.load(Ordering::Relaxed) && is_plain;
+        let can_be_cut = is_certified && !arguments.first && !interrupt::is_requested() && is_plain;
         if can_be_cut && self.cut((problem, &outcome), (file, which), gap)? {
             return Ok(false);
         }
@@ -352,7 +350,7 @@ impl Told<'_> {
                 .then(|| digits_to_value(problem, &many));
             self.lines += &(run.to_json_among(among, &alone, (measured, many)) + "\n");
         }
-        Ok(cancel.load(Ordering::Relaxed))
+        Ok(interrupt::is_requested())
     }
 }
 

@@ -82,6 +82,11 @@ fn molecules(text: &str, format: Format) -> Result<Vec<Molecule<'_>>, String> {
     Ok(all)
 }
 
+/// What is wrong with a line, by index, on which an atom was expected.
+fn no_atom(line: usize) -> String {
+    format!("line {}: an atom is missing, or its coordinates", line + 1)
+}
+
 fn xyz<'a>(lines: &[&'a str]) -> Result<Vec<Molecule<'a>>, String> {
     let mut all = Vec::new();
     let mut at = 0;
@@ -103,12 +108,7 @@ fn xyz<'a>(lines: &[&'a str]) -> Result<Vec<Molecule<'a>>, String> {
                 (Some(element), Some(x), Some(y), Some(z)) => {
                     atoms.push((element, [x, y, z], line));
                 }
-                _ => {
-                    return Err(format!(
-                        "line {}: an atom is missing, or its coordinates",
-                        line + 1
-                    ));
-                }
+                _ => return Err(no_atom(line)),
             }
         }
         at += 2 + count;
@@ -173,12 +173,7 @@ fn molfiles<'a>(lines: &[&'a str]) -> Result<Vec<Molecule<'a>>, String> {
             let (at, text) = line(k);
             match in_columns(text).or_else(|| with_blanks(text)) {
                 Some((element, coordinates)) => out.atoms.push((element, coordinates, at)),
-                None => {
-                    return Err(format!(
-                        "line {}: an atom is missing, or its coordinates",
-                        at + 1
-                    ));
-                }
+                None => return Err(no_atom(at)),
             }
         }
         for k in 0..bonds {
@@ -445,6 +440,7 @@ pub fn read(bytes: &[u8], format: Format, index: usize) -> Result<Imported, Stri
             format,
             lines: molecule.atoms.iter().map(|atom| atom.2).collect(),
         }),
+        sources: Vec::new(),
     })
 }
 
@@ -511,10 +507,7 @@ fn bend(problem: &Problem) -> Option<usize> {
     const UNEQUAL: f64 = 0.01;
     let mut near: Vec<BTreeMap<usize, f64>> = vec![BTreeMap::new(); problem.points.len()];
     for distance in &problem.distances {
-        let length = match &distance.target {
-            Target::Length(length) => length.to_f64(),
-            Target::SquaredLength(squared) => squared.to_f64().sqrt(),
-        };
+        let length = distance.target.to_f64();
         let [a, b] = distance.points;
         near[a].insert(b, length);
         near[b].insert(a, length);
@@ -616,6 +609,12 @@ fn with_fields(line: &str, first: usize, place: &[f64; 3], digits: usize) -> Str
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::import;
+
+    /// The file of a molecule with another figure.
+    pub fn written(of: &Imported, bytes: &[u8], figure: &Figure) -> Result<Vec<u8>, String> {
+        import::rewrite(of, bytes, &of.problem, figure)
+    }
 
     const CHAIR: &str = "6\ncyclohexane, carbon only\nC 1.45 0.0 0.25\nC 0.73 1.26 -0.25\nC -0.73 1.26 0.25\n\
                          C -1.45 0.0 -0.25\nC -0.73 -1.26 0.25\nC 0.73 -1.26 -0.25\n";
@@ -632,10 +631,8 @@ mod tests {
             points: &places,
             radii: &[],
         };
-        let AllPlaces::Molecule(of) = &ring.places else {
-            panic!()
-        };
-        let out = String::from_utf8(rewrite(of, CHAIR.as_bytes(), &figure).unwrap()).unwrap();
+        let out = written(&ring, CHAIR.as_bytes(), &figure).unwrap();
+        let out = String::from_utf8(out).unwrap();
         assert!(
             out.contains("\nC 1.0000000000 2.0000000000 3.0000000000\n"),
             "{out}"
@@ -676,9 +673,6 @@ mod tests {
         let found = read_it(&latin);
         assert_eq!(found.problem.points[0].name, "N1");
         assert_eq!(found.problem.distances.len(), 6);
-        let AllPlaces::Molecule(of) = &found.places else {
-            panic!()
-        };
         let old = [
             [0.0, 0.0, 0.1],
             [0.94, 0.0, -0.28],
@@ -687,10 +681,10 @@ mod tests {
         ];
         let figure = |points| Figure { points, radii: &[] };
         // What does not move is given back as it was.
-        assert_eq!(rewrite(of, &latin, &figure(&old)).unwrap(), latin);
+        assert_eq!(written(&found, &latin, &figure(&old)).unwrap(), latin);
         let mut new = old;
         new[1][0] = 1.0;
-        let out = rewrite(of, &latin, &figure(&new)).unwrap();
+        let out = written(&found, &latin, &figure(&new)).unwrap();
         let text: String = out.iter().map(|&b| char::from(b)).collect();
         assert!(text.contains("\nH1 1.0000000000 0 -2.8*^-1\n"), "{text}");
         let marked = [b"\xef\xbb\xbf", CHAIR.as_bytes()].concat();

@@ -214,7 +214,8 @@ pub fn with_place(line: &str, place: &[f64; 3]) -> Option<String> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{AllPlaces, Figure, read, rewrite};
+    use super::super::tests::written;
+    use super::super::{Figure, read};
     use super::*;
     use crate::import::{Format, Imported, list};
 
@@ -324,9 +325,6 @@ mod tests {
     fn coordinates_are_written_in_their_columns() {
         let text = peptide();
         let found = chain(&text, 0).unwrap();
-        let AllPlaces::Molecule(of) = &found.places else {
-            panic!()
-        };
         let old = found
             .problem
             .points
@@ -334,7 +332,7 @@ mod tests {
             .map(|p| p.sketch.each_ref().map(|x| x.to_f64()));
         let mut points: Vec<[f64; 3]> = old.collect();
         let rewritten =
-            |points: &[[f64; 3]]| rewrite(of, text.as_bytes(), &Figure { points, radii: &[] });
+            |points: &[[f64; 3]]| written(&found, text.as_bytes(), &Figure { points, radii: &[] });
         let same = rewritten(&points).unwrap();
         assert_eq!(String::from_utf8(same).unwrap(), text);
         points[3] = [-12.5, 0.0001, 7.25];

@@ -11,7 +11,7 @@ pub use json::comparisons_to_json;
 pub use table::comparison_to_table;
 
 use crate::compare::{Comparison, Fault, Measured, Method, Row, Verdict};
-use crate::problem::Published;
+use crate::problem::{Published, counted, either};
 use crate::track::{Status, StopKind};
 
 /// A comparison and what was published about its problem.
@@ -73,11 +73,8 @@ fn verdict(verdict: &Verdict) -> &'static str {
 
 /// What there is to say of a certified run that ended before the one that others are judged by.
 fn earlier(beyond: usize) -> String {
-    let solutions = match beyond {
-        1 => "1 solution of the arc proved is".to_owned(),
-        n => format!("{n} solutions of the arc proved are"),
-    };
-    format!("it ended earlier: {solutions} beyond its ends")
+    let (solutions, are) = (counted(beyond, "solution"), either(beyond, "is", "are"));
+    format!("it ended earlier: {solutions} of the arc proved {are} beyond its ends")
 }
 
 /// What is wrong, in words.

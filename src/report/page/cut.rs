@@ -8,15 +8,11 @@ use serde_json::Value;
 pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
     let result = reader.result;
     let mut page = reader.page("Sketch", "not a solution: drawn for comparison")?;
-    let status = text(result, "status")?;
-    (page.badge, page.tone) = match status {
-        "complete" => ("proved · all there are".into(), Tone::Proved),
-        "combined" => (
-            "each proved; complete as the verdict says".into(),
-            Tone::Proved,
-        ),
-        _ => ("each proved; there may be more".into(), Tone::Stopped),
-    };
+    page.rate(match text(result, "status")? {
+        "complete" => ("proved · all there are", Tone::Proved),
+        "combined" => ("each proved; complete as the verdict says", Tone::Proved),
+        _ => ("each proved; there may be more", Tone::Stopped),
+    });
     page.verdict = text(result, "verdict")?.to_owned();
     let figures = list(result, "figures")?;
     for found in figures {

@@ -12,7 +12,7 @@ pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
         "limit" => ("At the limit", "limit, proved", Tone::Proved),
         _ => ("", "stopped", Tone::Stopped),
     };
-    (page.badge, page.tone) = (badge.into(), tone);
+    page.rate((badge, tone));
     page.verdict = text(result, "words")?.to_owned();
     let dimensions = result["dimensions"].as_object();
     for (name, value) in dimensions.ok_or(wrong("dimensions"))? {

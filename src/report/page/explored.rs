@@ -52,10 +52,10 @@ pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
         }
     }
     let all = result["all_real"].as_u64() == Some(solutions.len() as u64);
-    (page.badge, page.tone) = match all {
-        true => ("proved · all there are".into(), Tone::Proved),
-        false => ("each proved; there may be more".into(), Tone::Observed),
-    };
+    page.rate(match all {
+        true => ("proved · all there are", Tone::Proved),
+        false => ("each proved; there may be more", Tone::Observed),
+    });
     page.verdict = text(result, "verdict")?.to_owned();
     page.text = vec![
         Text::Paragraph(

@@ -1,8 +1,8 @@
 //! The page of a motion: the linkage all along its way, and where what is measured is least and greatest.
 
 use super::reader::{Reader, ShowError, digits, list, pair, text, wrong};
-use super::swept::way;
-use super::{Figure, Page, Path, Sample, Text, Tone};
+use super::swept::{path, sample};
+use super::{Figure, Page, Sample, Text, Tone};
 use serde_json::Value;
 
 pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
@@ -27,14 +27,8 @@ pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
     for frame in list(result, "frames")? {
         let figure = reader.figure(&frame["points"], &Value::Null, "frames")?;
         let square = |k: usize| (figure.points[3 * a + k] - figure.points[3 * b + k]).powi(2);
-        samples.push(Sample {
-            at: samples.last().map_or(0.0, |last: &Sample| {
-                last.at + way(&last.points, &figure.points)
-            }),
-            t: (0..3).map(square).sum::<f64>().sqrt(),
-            points: figure.points,
-            outlines: figure.outlines,
-        });
+        let length = (0..3).map(square).sum::<f64>().sqrt();
+        samples.push(sample(length, &figure, samples.last()));
     }
     let mut ranges = Vec::new();
     for measured in list(result, "measured")? {
@@ -64,14 +58,6 @@ pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
         Text::Paragraph("Between which bounds it stays, proved:".into()),
         Text::List(ranges),
     ];
-    if samples.len() > 1 {
-        page.paths.push(Path {
-            along: "how far the points move".into(),
-            legend: format!("How {name} changes as the figure moves."),
-            parameter: name,
-            samples,
-            ..Path::default()
-        });
-    }
+    page.paths.extend(path(&name, samples, Vec::new()));
     Ok(page)
 }

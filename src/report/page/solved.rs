@@ -45,14 +45,13 @@ pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
 pub(super) fn blocks(reader: &Reader) -> Result<Page, ShowError> {
     let blocks = &reader.result["blocks"];
     let mut page = reader.page("Sketch", "not a solution: drawn for comparison")?;
-    let (badge, tone) = match blocks["proved"].as_bool() {
+    page.rate(match blocks["proved"].as_bool() {
         Some(true) => (
             "proved · complete for the paths of the blocks",
             Tone::Proved,
         ),
         _ => ("proved in part", Tone::Stopped),
-    };
-    (page.badge, page.tone) = (badge.into(), tone);
+    });
     page.verdict = text(blocks, "verdict")?.to_owned();
     let runs = list(blocks, "runs")?;
     let mut listed = 0;

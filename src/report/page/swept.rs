@@ -28,14 +28,7 @@ pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
     for (k, frame) in frames.iter().enumerate() {
         let value = pair(&frame["value"]).ok_or(wrong("frames"))?;
         let figure = reader.figure(&frame["points"], &Value::Null, "frames")?;
-        let sample = Sample {
-            at: samples
-                .last()
-                .map_or(0.0, |last| last.at + way(&last.points, &figure.points)),
-            t: middle(value),
-            points: figure.points.clone(),
-            outlines: figure.outlines.clone(),
-        };
+        let sample = sample(middle(value), &figure, samples.last());
         if k == 0 || k + 1 == frames.len() {
             let (label, which) = match k {
                 0 => (digits(value), "the first frame"),
@@ -68,21 +61,33 @@ pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
          a turn back: what is drawn there is drawn straight from one frame to the next."
     ))];
     page.rows = vec![("frames".into(), frames.len().to_string())];
-    if samples.len() > 1 {
-        page.paths.push(Path {
-            parameter: name.to_owned(),
-            along: "how far the points move".into(),
-            legend: format!("How {name} changes as the figure moves."),
-            levels,
-            samples,
-            ..Path::default()
-        });
-    }
+    page.paths.extend(path(name, samples, levels));
     Ok(page)
 }
 
-/// How far all points together are from where they were.
-pub(super) fn way(from: &[f64], to: &[f64]) -> f64 {
-    let squares = from.iter().zip(to).map(|(a, b)| (a - b).powi(2));
-    squares.sum::<f64>().sqrt()
+/// A frame behind another one, at this value of the parameter.
+pub(super) fn sample(t: f64, figure: &Figure, before: Option<&Sample>) -> Sample {
+    let way = |last: &Sample| {
+        let squares = last.points.iter().zip(&figure.points);
+        let squares = squares.map(|(a, b)| (a - b).powi(2));
+        squares.sum::<f64>().sqrt()
+    };
+    Sample {
+        at: before.map_or(0.0, |last| last.at + way(last)),
+        t,
+        points: figure.points.clone(),
+        outlines: figure.outlines.clone(),
+    }
+}
+
+/// The path of frames, along which a dimension changes. `None`: there are too few.
+pub(super) fn path(name: &str, samples: Vec<Sample>, levels: Vec<Level>) -> Option<Path> {
+    (samples.len() > 1).then(|| Path {
+        parameter: name.to_owned(),
+        along: "how far the points move".into(),
+        legend: format!("How {name} changes as the figure moves."),
+        levels,
+        samples,
+        ..Path::default()
+    })
 }

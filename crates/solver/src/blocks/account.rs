@@ -4,8 +4,8 @@
 //! coordinates held where they are, and a claim about it is true only with both in the same sentence. Every verb says it
 //! with the same words, [`Account::clause`], and writes it as the same JSON.
 
-use crate::interval::{Interval, enclose, hull, point};
-use crate::problem::{Decimal, Problem, Target};
+use crate::interval::{Interval, hull, point};
+use crate::problem::{Decimal, Problem, Target, either};
 use serde::Serialize;
 
 /// Names in one list of a sentence; the others are counted.
@@ -209,8 +209,7 @@ impl Account {
             those.map(|one| one.name.clone()).collect()
         };
         let were = |names: &[String], one: &str, several: &str| {
-            let verb = if names.len() == 1 { one } else { several };
-            format!("{} {verb}", list(names))
+            format!("{} {}", list(names), either(names.len(), one, several))
         };
         let mut parts = Vec::new();
         let met = names(&|one| matches!(one.verdict, Verdict::Met { .. }));
@@ -263,7 +262,7 @@ impl Account {
             parts.push(format!(
                 "{} out, and nothing is proved of {}",
                 were(&unseen, "was left", "were left"),
-                if unseen.len() == 1 { "it" } else { "them" }
+                either(unseen.len(), "it", "them")
             ));
         }
         parts.join("; ")
@@ -363,14 +362,6 @@ fn one_digit(x: f64, fits: impl Fn(f64) -> bool, step: i32) -> String {
         10 => format!("1e{}", power + 1),
         0 => format!("9e{}", power - 1),
         digit => format!("{digit}e{power}"),
-    }
-}
-
-/// Enclosures of the length that a target wants, and of the square of that.
-pub(crate) fn enclosed(target: &Target) -> [Interval; 2] {
-    match target {
-        Target::Length(length) => [enclose(length), enclose(length).sqr()],
-        Target::SquaredLength(squared) => [enclose(squared).sqrt(), enclose(squared)],
     }
 }
 

@@ -255,7 +255,7 @@ fn choices(block: &Problem, index: usize, solutions: &[Solution], shared: &[usiz
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::blocks::{clusters, enclosed};
+    use crate::blocks::clusters;
     use crate::track::prove;
 
     /// A strip of triangles on a common side each with the next: all figures are known.
@@ -296,7 +296,7 @@ mod tests {
             for distance in &problem.distances {
                 let [a, b] = distance.points.map(|p| figure[p]);
                 let squared = (0..3).fold(point(0.0), |sum, k| sum + (a[k] - b[k]).sqr());
-                let [_, target] = enclosed(&distance.target);
+                let target = distance.target.enclose_squared();
                 assert!(squared.inf() <= target.sup() && target.inf() <= squared.sup());
                 assert!(squared.wid() < 1e-9);
             }

@@ -35,7 +35,7 @@ mod singular;
 mod surplus;
 
 pub use account::{Account, Held, LEAST_PART, LeftOut, Verdict, Why, rounded_down, rounded_up};
-pub(crate) use account::{Ruler, enclosed, list_of};
+pub(crate) use account::{Ruler, list_of};
 pub use choose::Choice;
 pub(crate) use choose::{COARSE, FINE, FREE_FIRST, LAST};
 pub use clusters::{MOST_POINTS, clusters};

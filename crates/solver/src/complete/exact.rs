@@ -6,7 +6,7 @@
 //! halves of sums of squared distances, and Δ = AB − C² > 0, the squared height is N/Δ with N = rΔ − (q₁²B − 2q₁q₂C + q₂²A); in the
 //! plane Δ = A and N = rA − q₁².
 
-use crate::blocks::{Account, LeftOut, Ruler, Verdict, enclosed, seen};
+use crate::blocks::{Account, LeftOut, Ruler, Verdict, seen};
 use crate::interval::vector::Vector;
 use crate::interval::{Interval, ZERO};
 use crate::places::Each as _;
@@ -118,8 +118,7 @@ pub fn nearly(problem: &Problem, is_own: impl Fn([usize; 2]) -> bool) -> Option<
             let length = (0..3).fold(ZERO, |sum, k| sum + (a[k] - b[k]).sqr()).sqrt();
             // The owner of a distance's equation: behind objects, constraints and those of none, of which there are none here.
             let epsilon = Ruler::new(problem, 1 + e, (unit, 1), None).epsilon;
-            let [wanted, _] = enclosed(&distance.target);
-            let miss = length - wanted;
+            let miss = length - distance.target.enclose();
             let verdict = Verdict::of(miss, epsilon);
             let share = miss.mag() / epsilon;
             let is_better = best.as_ref().is_none_or(|(least, _)| share < *least);

@@ -6,7 +6,7 @@
 //! of the problem), or neither.
 
 use super::{Complete, Options, Unserved, all};
-use crate::blocks::{Account, LeftOut, MOST_POINTS, Ruler, Verdict, enclosed};
+use crate::blocks::{Account, LeftOut, MOST_POINTS, Ruler, Verdict};
 use crate::interval::{Interval, point};
 use crate::linalg::Span;
 use crate::places::Each as _;
@@ -245,8 +245,7 @@ impl Surplus {
 /// Of two points the distance less the one wanted: |p − q| − d = (|p − q|² − d²)/(|p − q| + d).
 fn miss(a: [Interval; 3], b: [Interval; 3], target: &Target) -> Interval {
     let squared = (0..3).fold(point(0.0), |sum, k| sum + (a[k] - b[k]).sqr());
-    let [length, wanted] = enclosed(target);
-    (squared - wanted) / (squared.sqrt() + length)
+    (squared - target.enclose_squared()) / (squared.sqrt() + target.enclose())
 }
 
 impl Complete {

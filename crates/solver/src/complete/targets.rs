@@ -1,6 +1,5 @@
 //! What the search is about: points, and the squares of the distances wanted.
 
-use crate::blocks::enclosed;
 use crate::interval::{Interval, hull, point};
 use crate::problem::Problem;
 use crate::track::Signs;
@@ -31,7 +30,8 @@ const NONE: u32 = u32::MAX;
 impl Targets {
     /// Of a problem.
     pub fn new(problem: &Problem) -> Self {
-        let wanted = problem.distances.iter().map(|d| enclosed(&d.target));
+        let targets = problem.distances.iter().map(|d| &d.target);
+        let wanted = targets.map(|target| [target.enclose(), target.enclose_squared()]);
         let wanted: Vec<[Interval; 2]> = wanted.collect();
         let count = wanted.len().max(1) as f64;
         let mean = wanted.iter().map(|[length, _]| length.mid()).sum::<f64>() / count;

@@ -32,18 +32,19 @@ pub enum Nature {
 }
 
 /// How much is proved about all solutions together.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub enum Status {
     /// Every isolated complex solution is listed: with the figures at infinity there are as many as a proved bound allows.
     Complete,
     /// All paths came to solutions or went away, and no bound is known or met: there may be more.
     Found,
     /// Some paths could not be followed to their ends: there may be more.
+    #[default]
     Partial,
 }
 
 /// The complex solutions of an instance.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct Solutions {
     /// What is proved of them together.
     pub status: Status,
@@ -81,30 +82,32 @@ pub fn solve(lowered: &Lowered, template: &Template, ways: &Ways) -> Solutions {
     let clock = Instant::now();
     let system = &lowered.system;
     let target = system.target();
-    let mut effort = Effort::default();
-    let mut arrived = Arrived::default();
+    let mut found = Solutions {
+        paths_proved: ways.proved,
+        ..Solutions::default()
+    };
     let starts: Vec<&SolutionBox> = template.solutions.boxes().iter().collect();
     let mut random = Random::new(0x5eed);
-    let (mut proved, mut complete) = (ways.proved, false);
+    let mut complete = false;
     for attempt in 0..=DETOURS {
         let bow = (attempt > 0).then(|| bow(system, &mut random));
         let rights = segment(&template.parameters, &target, bow.as_deref());
         let (ends, took) = follow_all(system, &rights, &starts, ways);
-        effort.add(took);
-        let known = arrived.set.len();
-        arrived.take(lowered, ends);
+        found.effort.add(took);
+        let known = found.boxes.len();
+        found.take(lowered, ends);
         // What was found on one way stays proved; another way may come to what this one did not. In floats a path may have
         // jumped to another one's end, or not come back from afar.
-        let all_came = arrived.stopped.is_empty()
-            && (proved || arrived.repeated == 0 && arrived.infinite.is_empty());
-        let nothing_new = arrived.stopped.is_empty() && arrived.set.len() == known;
-        complete = arrived.is_complete(lowered);
+        let all_came = found.stopped.is_empty()
+            && (found.paths_proved || found.repeated == 0 && found.infinite.is_empty());
+        let nothing_new = found.stopped.is_empty() && found.boxes.len() == known;
+        complete = found.is_complete(lowered);
         if all_came || nothing_new || ways.is_over() || complete {
             break;
         }
     }
-    let missing = !arrived.infinite.is_empty() || !arrived.stopped.is_empty();
-    if proved && missing && lowered.bound.is_some() && !complete && !ways.is_over() {
+    let missing = !found.infinite.is_empty() || !found.stopped.is_empty();
+    if ways.proved && missing && lowered.bound.is_some() && !complete && !ways.is_over() {
         // Floats go farther than proved tubes. What they come to is proved by itself, and the bound may be met with it.
         let floats = Ways {
             proved: false,
@@ -112,129 +115,27 @@ pub fn solve(lowered: &Lowered, template: &Template, ways: &Ways) -> Solutions {
         };
         let rights = segment(&template.parameters, &target, None);
         let (ends, took) = follow_all(system, &rights, &starts, &floats);
-        effort.add(took);
-        let mut farther = arrived.clone();
+        found.effort.add(took);
+        let mut farther = found.clone();
         farther.take(lowered, ends);
-        if farther.figures() > arrived.figures() {
+        if farther.figures() > found.figures() {
             complete = farther.is_complete(lowered);
-            arrived = farther;
-            proved = false;
+            found = farther;
+            found.paths_proved = false;
         }
     }
-    let status = if complete {
+    found.status = if complete {
         // Whatever stopped: there is nothing else.
         Status::Complete
-    } else if arrived.stopped.is_empty() {
+    } else if found.stopped.is_empty() {
         Status::Found
     } else {
         Status::Partial
     };
-    let Arrived {
-        set,
-        departures,
-        infinite,
-        stopped,
-        repeated,
-        conjugates,
-    } = arrived;
-    let counts = count(&set, system);
-    let natures = natures(&set, &system.group_of_instance);
-    Solutions {
-        status,
-        boxes: set,
-        natures,
-        counts,
-        infinite,
-        departures,
-        stopped,
-        repeated,
-        conjugates,
-        paths_proved: proved,
-        effort,
-        seconds: clock.elapsed().as_secs_f64(),
-    }
-}
-
-/// What paths came to.
-#[derive(Debug, Clone, Default)]
-struct Arrived {
-    /// Of all ways.
-    set: SolutionSet,
-    departures: Vec<Departure>,
-    conjugates: usize,
-    /// Of the last way.
-    infinite: Vec<f64>,
-    stopped: Vec<String>,
-    repeated: usize,
-}
-
-impl Arrived {
-    /// Enters the ends of all paths of a way, and the conjugates of what is new.
-    fn take(&mut self, lowered: &Lowered, ends: Vec<PathEnd>) {
-        let system = &lowered.system;
-        self.infinite.clear();
-        self.stopped.clear();
-        self.repeated = 0;
-        // Solutions that this way has come to.
-        let mut came = vec![false; self.set.len()];
-        for end in ends {
-            match end {
-                PathEnd::Reached(found) => {
-                    match self.set.find(&found, &system.group_of_instance, false) {
-                        Found::New => {
-                            self.set.push(found);
-                            came.push(true);
-                        }
-                        Found::Old(index) => {
-                            let again = std::mem::replace(&mut came[index], true);
-                            self.repeated += usize::from(again);
-                        }
-                        Found::Unknown => self.stopped.push(
-                            "two solutions are so near each other that their boxes cannot be told apart"
-                                .to_owned(),
-                        ),
-                    }
-                }
-                PathEnd::Beyond(t, last) => {
-                    self.infinite.push(t);
-                    if let Some(graph) = &lowered.graph {
-                        enter(graph, &places(system, &last), &mut self.departures);
-                    }
-                }
-                PathEnd::Stopped(reason) => self.stopped.push(reason),
-            }
-        }
-        self.conjugates += add_conjugates(system, &mut self.set);
-    }
-
-    /// How many solutions and figures at infinity are known.
-    fn figures(&self) -> usize {
-        self.set.len() + at_infinity(&self.departures)
-    }
-
-    /// Whether there are as many solutions, up to rotation, as a proved bound allows; figures at infinity are among those that
-    /// it allows (see [`infinity`]), and none is congruent to its mirror image by a rotation.
-    ///
-    /// [`infinity`]: super::infinity
-    fn is_complete(&self, lowered: &Lowered) -> bool {
-        let counts = count(&self.set, &lowered.system);
-        let Some(bound) = &lowered.bound else {
-            return false;
-        };
-        // What somebody cites need not be a bound for all dimensions, with multiplicities.
-        let at_infinity = match bound.is_cited {
-            true => 0,
-            false => 2 * at_infinity(&self.departures),
-        };
-        let all = (counts.rotation + at_infinity) as u128;
-        // More would disprove a bound that is proved.
-        assert!(
-            bound.is_cited || !counts.certain || all <= bound.count,
-            "{all} solutions and figures at infinity are more than the bound of {}: a bug in krawl, and nothing of this is proved",
-            bound.count
-        );
-        counts.certain && all == bound.count
-    }
+    found.counts = count(&found.boxes, system);
+    found.natures = natures(&found.boxes, &system.group_of_instance);
+    found.seconds = clock.elapsed().as_secs_f64();
+    found
 }
 
 /// Adds the conjugates of solutions that are not in the set, each proved by itself. Tells how many.
@@ -261,11 +162,6 @@ fn add_conjugates(system: &System, set: &mut SolutionSet) -> usize {
         }
     }
     set.len() - before
-}
-
-/// How many figures at infinity there are, up to isometry.
-fn at_infinity(departures: &[Departure]) -> usize {
-    departures.iter().map(|one| one.figures.len()).sum()
 }
 
 /// The places of all points, where the unknowns have these real and imaginary parts.
@@ -298,9 +194,76 @@ fn natures(set: &SolutionSet, group: &[Signs]) -> Vec<Nature> {
 }
 
 impl Solutions {
+    /// Enters the ends of all paths of a way, and the conjugates of what is new.
+    fn take(&mut self, lowered: &Lowered, ends: Vec<PathEnd>) {
+        let system = &lowered.system;
+        self.infinite.clear();
+        self.stopped.clear();
+        self.repeated = 0;
+        // Solutions that this way has come to.
+        let mut came = vec![false; self.boxes.len()];
+        for end in ends {
+            match end {
+                PathEnd::Reached(found) => {
+                    match self.boxes.find(&found, &system.group_of_instance, false) {
+                        Found::New => {
+                            self.boxes.push(found);
+                            came.push(true);
+                        }
+                        Found::Old(index) => {
+                            let again = std::mem::replace(&mut came[index], true);
+                            self.repeated += usize::from(again);
+                        }
+                        Found::Unknown => self.stopped.push(
+                            "two solutions are so near each other that their boxes cannot be told apart"
+                                .to_owned(),
+                        ),
+                    }
+                }
+                PathEnd::Beyond(t, last) => {
+                    self.infinite.push(t);
+                    if let Some(graph) = &lowered.graph {
+                        enter(graph, &places(system, &last), &mut self.departures);
+                    }
+                }
+                PathEnd::Stopped(reason) => self.stopped.push(reason),
+            }
+        }
+        self.conjugates += add_conjugates(system, &mut self.boxes);
+    }
+
+    /// How many solutions and figures at infinity are known.
+    fn figures(&self) -> usize {
+        self.boxes.len() + self.at_infinity()
+    }
+
+    /// Whether there are as many solutions, up to rotation, as a proved bound allows; figures at infinity are among those that
+    /// it allows (see [`infinity`]), and none is congruent to its mirror image by a rotation.
+    ///
+    /// [`infinity`]: super::infinity
+    fn is_complete(&self, lowered: &Lowered) -> bool {
+        let counts = count(&self.boxes, &lowered.system);
+        let Some(bound) = &lowered.bound else {
+            return false;
+        };
+        // What somebody cites need not be a bound for all dimensions, with multiplicities.
+        let at_infinity = match bound.is_cited {
+            true => 0,
+            false => 2 * self.at_infinity(),
+        };
+        let all = (counts.rotation + at_infinity) as u128;
+        // More would disprove a bound that is proved.
+        assert!(
+            bound.is_cited || !counts.certain || all <= bound.count,
+            "{all} solutions and figures at infinity are more than the bound of {}: a bug in krawl, and nothing of this is proved",
+            bound.count
+        );
+        counts.certain && all == bound.count
+    }
+
     /// How many figures at infinity are proved, up to isometry.
     pub fn at_infinity(&self) -> usize {
-        at_infinity(&self.departures)
+        self.departures.iter().map(|one| one.figures.len()).sum()
     }
 
     /// The indices of the solutions that are proved real.

@@ -49,6 +49,7 @@ mod segments;
 mod session;
 mod setting;
 mod sweep;
+mod way;
 mod whole;
 mod whole_turn;
 mod within;

@@ -2,6 +2,7 @@
 
 use super::open::OpenError;
 use super::setting::Setting;
+use super::way::Way as _;
 use super::whole::Whole;
 use crate::interval::{Interval, point};
 use crate::places::Each as _;

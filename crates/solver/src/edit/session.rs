@@ -5,6 +5,7 @@ use super::ending::{Edited, Ending, Keep, Orientations};
 use super::open::{Moved, OpenError};
 use super::parts::Parts;
 use super::setting::Setting;
+use super::way::Way;
 use super::whole::Whole;
 use crate::blocks::{Account, Singular};
 use crate::interval::Interval;
@@ -19,13 +20,7 @@ use crate::track::{Control, Options, StartError, StopKind};
 /// part ([`crate::blocks`]), and need not have as many equations as unknowns: what nothing determines stays put.
 #[derive(Debug)]
 pub struct Session {
-    way: Way,
-}
-
-#[derive(Debug)]
-enum Way {
-    Whole(Box<Whole>),
-    Parts(Box<Parts>),
+    way: Box<dyn Way>,
 }
 
 impl Session {
@@ -63,10 +58,9 @@ impl Session {
             );
             return Err(StartError::Unsupported(what).into());
         }
-        let way = if is_followed_in_parts {
-            Way::Parts(Box::new(Parts::open(problem, options, control)?))
-        } else {
-            Way::Whole(Box::new(Whole::open_with(problem, options, control)?))
+        let way: Box<dyn Way> = match is_followed_in_parts {
+            true => Box::new(Parts::open(problem, options, control)?),
+            false => Box::new(Whole::open_with(problem, options, control)?),
         };
         Ok(Session { way })
     }
@@ -80,23 +74,13 @@ impl Session {
         options: &Options,
         control: &mut Control,
     ) -> Result<Self, OpenError> {
-        let parts = Parts::open(problem, options, control)?;
-        Ok(Session {
-            way: Way::Parts(Box::new(parts)),
-        })
+        let way = Box::new(Parts::open(problem, options, control)?);
+        Ok(Session { way })
     }
 
     /// Whether points can be dragged: the session was opened to do so, or its sketch is in its own frame.
     pub fn can_drag(&self) -> bool {
-        self.parts().is_some()
-    }
-
-    /// The sketch that is followed part by part, if it is.
-    fn parts(&self) -> Option<&Parts> {
-        match &self.way {
-            Way::Whole(_) => None,
-            Way::Parts(parts) => Some(parts),
-        }
+        self.way.parts().is_some()
     }
 
     /// Drags points to where they are wanted, all dimensions staying what they are, or as near to that as a figure is found; the rest moves
@@ -106,34 +90,22 @@ impl Session {
     /// # Panics
     /// If the session cannot be dragged in ([`Session::can_drag`]), or a point is none of the problem's.
     pub fn drag(&mut self, drags: &[Drag], control: &mut Control) -> Edited {
-        match &mut self.way {
-            Way::Whole(_) => panic!("points cannot be dragged in a figure that has no place"),
-            Way::Parts(parts) => parts.drag(drags, control),
-        }
+        self.way.drag(drags, control)
     }
 
     /// The problem with the dimensions as they are now. Its sketch is the one that was given.
     pub fn problem(&self) -> &Problem {
-        match &self.way {
-            Way::Whole(whole) => whole.problem(),
-            Way::Parts(parts) => parts.problem(),
-        }
+        self.way.problem()
     }
 
     /// How far the sketch was from the first figure.
     pub fn moved(&self) -> Moved {
-        match &self.way {
-            Way::Whole(whole) => whole.moved(),
-            Way::Parts(parts) => parts.moved(),
-        }
+        self.way.moved()
     }
 
     /// What a dimension is now, by its index in [`Setting`]: an enclosure, in the unit of the problem or in degrees.
     pub fn length(&self, index: usize) -> Interval {
-        match &self.way {
-            Way::Whole(whole) => whole.length(index),
-            Way::Parts(parts) => parts.value(index),
-        }
+        self.way.length(index)
     }
 
     /// The figure, in the coordinates of the problem: a box that holds exactly one with these dimensions. Where
@@ -141,10 +113,7 @@ impl Session {
     /// first point stays where the sketch has it, the next one that is elsewhere stays on its ray from there, and
     /// in space the next one off that line stays on its side of their plane.
     pub fn points(&self) -> Vec<[Interval; 3]> {
-        match &self.way {
-            Way::Whole(whole) => whole.points(),
-            Way::Parts(parts) => parts.points(),
-        }
+        self.way.points_of(self.way.figure())
     }
 
     /// The figure in floats, in the coordinates of the problem: the middle of each box of [`Session::points`].
@@ -155,30 +124,24 @@ impl Session {
 
     /// Where the problem's objects are: enclosures, in the unit of the problem.
     pub fn objects(&self) -> Vec<Located> {
-        match &self.way {
-            Way::Whole(whole) => whole.objects(),
-            Way::Parts(parts) => parts.objects(),
-        }
+        self.way.objects_of(self.way.figure())
     }
 
     /// What is proved of the figure as it is now: how many equations were used, which constraints were left out and how the
     /// figure stands to them, which coordinates are held where they are. Of an edit see [`Edited::account`].
     pub fn account(&self) -> Account {
-        match &self.way {
-            Way::Whole(whole) => whole.scope(),
-            Way::Parts(parts) => parts.scope(),
-        }
+        self.way.account()
     }
 
     /// Where the drawing of a problem in its own frame was singular, though figures near it are not: what was so about it, and how
     /// far it was moved off that place before it was led to its dimensions.
     pub fn singular(&self) -> Option<&Singular> {
-        self.parts()?.singular()
+        self.way.parts()?.singular()
     }
 
     /// How the equations fall apart, if they are followed part by part.
     pub fn decomposition(&self) -> Option<Decomposition> {
-        self.parts().map(Parts::decomposition)
+        self.way.parts().map(Parts::decomposition)
     }
 
     /// Changes dimensions. The session's figure is then the one that was reached; it stays what it is if the
@@ -194,10 +157,7 @@ impl Session {
 
     /// Changes dimensions as [`Session::edit`] does, with the hooks of `control`.
     pub fn edit_with(&mut self, settings: &[Setting], control: &mut Control) -> Edited {
-        let edited = match &mut self.way {
-            Way::Whole(whole) => whole.edit_with(settings, control),
-            Way::Parts(parts) => parts.edit(settings, Keep::Always, control),
-        };
+        let edited = self.way.edit(settings, Keep::Always, control);
         self.looked_at(edited, false)
     }
 
@@ -245,19 +205,12 @@ impl Session {
         keep: Keep,
         control: &mut Control,
     ) -> Edited {
-        match (&mut self.way, keep) {
-            (Way::Parts(parts), _) => parts.follow_to(settings, keep, control),
-            (Way::Whole(whole), Keep::Never) => whole.probe(settings, control),
-            (Way::Whole(whole), _) => whole.edit_with(settings, control),
-        }
+        self.way.follow_to(settings, keep, control)
     }
 
     /// What [`Session::edit`] would come to; the figure stays what it is.
     pub fn probe(&mut self, settings: &[Setting], control: &mut Control) -> Edited {
-        let edited = match &mut self.way {
-            Way::Whole(whole) => whole.probe(settings, control),
-            Way::Parts(parts) => parts.edit(settings, Keep::Never, control),
-        };
+        let edited = self.way.edit(settings, Keep::Never, control);
         self.looked_at(edited, false)
     }
 }

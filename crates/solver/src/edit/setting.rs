@@ -1,7 +1,6 @@
 //! Which dimension is to become how long.
 
 use super::ending::Dimension;
-use super::whole::length;
 use crate::constraint::{self, MOST_TURN, Measure};
 use crate::interval::angle::{degrees_of_cosine, direction};
 use crate::interval::{Interval, Real, point};
@@ -197,7 +196,7 @@ impl Setting {
 
     /// An enclosure of the value.
     pub(super) fn value(&self) -> Interval {
-        length(&self.target)
+        self.target.enclose()
     }
 
     /// The dimension, which was `from`, where an edit ended before its target, at t, or at it.

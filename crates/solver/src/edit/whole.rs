@@ -1,18 +1,19 @@
 //! A figure followed as a whole: one up to motions, or any for a certificate.
 
-use super::ending::{Edited, Ending, Limit, Orientations};
+use super::ending::{Edited, Keep, Limit};
 use super::open::{self, Moved, OpenError};
 use super::parts::MOST_TUBES;
 use super::parts::senses::senses;
 use super::place::Stand;
-use super::segments::{NARROWER, Reversed, first_lost, is_same_by_constraint, segments, stop};
+use super::segments::{is_same_by_constraint, segments};
 use super::setting::Setting;
+use super::way::Way;
 use crate::blocks::Account;
 use crate::constraint::{Fault, Lowered, Owner, Record, try_lower_editable};
-use crate::interval::{Interval, enclose, hull, point};
+use crate::interval::{Interval, point};
 use crate::places::Each as _;
-use crate::problem::{Decimal, Problem, Target};
-use crate::system::{Homotopy, Located, typical_length};
+use crate::problem::{Decimal, Problem};
+use crate::system::{Homotopy, Located, Segment, typical_length};
 use crate::track::arc::{ArcEnd, ArcRun, Figure, Fold, Orientation};
 use crate::track::certified::{FollowArcs, arcs};
 use crate::track::{Control, LARGEST_SQUARE, Options, Space, StartError, Stop, StopKind};
@@ -104,7 +105,7 @@ impl Whole {
             witness.begin(arcs.homotopy().unit);
         }
         let (figure, moved) = open::correct(&problem, &mut *arcs, control)?;
-        let lengths = problem.distances.iter().map(|d| length(&d.target));
+        let lengths = problem.distances.iter().map(|d| d.target.enclose());
         Ok(Whole {
             lengths: lengths.collect(),
             problem,
@@ -122,24 +123,11 @@ impl Whole {
         &self.problem
     }
 
-    /// How far the sketch was from the first figure.
-    pub fn moved(&self) -> Moved {
-        self.moved
-    }
-
-    /// What a dimension is now: an enclosure.
-    pub fn length(&self, index: usize) -> Interval {
-        match self.lengths.get(index) {
-            Some(length) => *length,
-            None => Setting::now(&self.problem, index).value(),
-        }
-    }
-
     /// The figure, in the coordinates of the problem: a box that holds exactly one with these dimensions. The
     /// first point stays where the sketch has it, the next one that is elsewhere stays on its ray from there, and
     /// in space the next one off that line stays on its side of their plane.
     pub fn points(&self) -> Vec<[Interval; 3]> {
-        self.in_problem(&self.figure)
+        self.points_of(&self.figure)
     }
 
     /// What a claim is proved of: as many equations as unknowns, all of them.
@@ -150,42 +138,9 @@ impl Whole {
         }
     }
 
-    /// Where the objects are.
-    pub fn objects(&self) -> Vec<Located> {
-        self.objects_of(&self.figure)
-    }
-
-    fn objects_of(&self, figure: &Figure) -> Vec<Located> {
-        let points = self.in_problem(figure);
-        let homotopy = self.arcs.homotopy();
-        homotopy.locate(&points, |unknown| figure.enclosure(unknown))
-    }
-
-    /// See [`super::Session::edit_with`].
-    pub fn edit_with(&mut self, settings: &[Setting], control: &mut Control) -> Edited {
-        let (edited, reached) = self.attempt(settings, control);
-        if let Some((figure, record)) = reached {
-            self.figure = figure;
-            self.record = record;
-            for setting in settings {
-                setting.apply(&mut self.problem);
-                if let Some(old) = self.lengths.get_mut(setting.index) {
-                    *old = length(&setting.target);
-                    let homotopy = self.arcs.homotopy_mut();
-                    homotopy.hold(setting.index, &setting.target);
-                }
-            }
-        }
-        edited
-    }
-
     /// What an edit would come to; the figure stays what it is.
     pub fn probe(&mut self, settings: &[Setting], control: &mut Control) -> Edited {
-        // What would come to pass is no part of a chain of edits.
-        let witness = control.witness.take();
-        let edited = self.attempt(settings, control).0;
-        control.witness = witness;
-        edited
+        self.edit(settings, Keep::Never, control)
     }
 
     /// An edit, and the figure that was reached if so, with what constraints were led to. The lengths of the homotopy's
@@ -204,7 +159,7 @@ impl Whole {
             homotopy.lead(setting.index, from, &setting.target);
         }
         let record = self.lead_constraints(settings);
-        let run = match &record {
+        let mut run = match &record {
             Err(fault) => ArcRun::stopped(Stop::new(StopKind::Refused, &**fault)),
             Ok(_) => {
                 if let Some(witness) = &mut control.witness {
@@ -218,15 +173,29 @@ impl Whole {
                 run
             }
         };
-        let run = self.end_where_segments_vanish(settings, run, control);
+        // A certificate is of the run that was made.
+        let witness = control.witness.take();
+        self.end_where_segments_vanish(settings, &mut run, |whole, radius| {
+            let homotopy = whole.arcs.homotopy();
+            let options = Options {
+                tube_radius: Some(radius * homotopy.unit),
+                ..whole.options.clone()
+            };
+            arcs(homotopy.clone(), &options).follow(&whole.figure, control)
+        });
+        control.witness = witness;
         let homotopy = self.arcs.homotopy_mut();
         for setting in distances() {
             let now = &self.problem.distances[setting.index].target;
             homotopy.hold(setting.index, now);
         }
-        let (edited, figure) = self.account(settings, run);
-        let seconds = clock.elapsed().as_secs_f64();
+        let figure = match &run.end {
+            ArcEnd::Reached(figure) => Some(figure.clone()),
+            _ => None,
+        };
         let reached = figure.and_then(|figure| Some((figure, record.ok()?)));
+        let edited = self.edited(settings, run, self.scope());
+        let seconds = clock.elapsed().as_secs_f64();
         (Edited { seconds, ..edited }, reached)
     }
 
@@ -276,127 +245,6 @@ impl Whole {
         second
     }
 
-    /// The run, ended where a line or arc shrinks to nothing.
-    fn end_where_segments_vanish(
-        &self,
-        settings: &[Setting],
-        mut run: ArcRun,
-        control: &mut Control,
-    ) -> ArcRun {
-        // A certificate is of the run that was made.
-        let witness = control.witness.take();
-        for radius in NARROWER {
-            if self.lost_segment(settings, &run).is_none() {
-                break;
-            }
-            let homotopy = self.arcs.homotopy();
-            let options = Options {
-                tube_radius: Some(radius * homotopy.unit),
-                ..self.options.clone()
-            };
-            let again = arcs(homotopy.clone(), &options).follow(&self.figure, control);
-            run.steps += again.steps;
-            let is_told = matches!(again.end, ArcEnd::Reached(_) | ArcEnd::Limit(_));
-            if !is_told && self.lost_segment(settings, &again).is_none() {
-                break;
-            }
-            run.segments = again.segments;
-        }
-        control.witness = witness;
-        match self.lost_segment(settings, &run) {
-            Some((stop, t)) => ArcRun {
-                end: ArcEnd::Stopped(stop),
-                t,
-                ..run
-            },
-            None => run,
-        }
-    }
-
-    /// Why a run ends at a line or arc that shrinks to nothing, and where, if it does.
-    fn lost_segment(&self, settings: &[Setting], run: &ArcRun) -> Option<(Stop, (f64, f64))> {
-        let head = self.problem.distances.len();
-        let reversed = settings.iter().filter_map(|s| {
-            let (from, to) = (self.length(s.index), s.value());
-            Reversed::new(&self.problem, s.index.checked_sub(head)?, from, to)
-        });
-        let reversed: Vec<Reversed> = reversed.collect();
-        let is_asked = |object: usize| {
-            let mut segments = self.arcs.homotopy().segments.iter();
-            let segment = segments.find(|segment| segment.object == object);
-            let same = is_same_by_constraint(&self.problem);
-            let zero = |_: usize, _: usize| false;
-            segment.is_some_and(|s| reversed.iter().any(|r| r.is_of(s, &same, zero)))
-        };
-        let (kept, t) = first_lost(&run.segments, run.t, is_asked)?;
-        Some((stop(&self.problem, kept), t))
-    }
-
-    fn account(&self, settings: &[Setting], run: ArcRun) -> (Edited, Option<Figure>) {
-        let t = hull(run.t.0, run.t.1);
-        let t = (!matches!(run.end, ArcEnd::Reached(_))).then_some(t);
-        let dimensions = settings
-            .iter()
-            .map(|s| s.at(&self.problem, self.length(s.index), t));
-        let dimensions = dimensions.collect();
-        let (ending, at, figure) = match run.end {
-            ArcEnd::Reached(figure) => (Ending::Reached, figure.clone(), Some(figure)),
-            ArcEnd::Limit(fold) => {
-                let limit = self.limit(&fold, &run.orientations);
-                (Ending::Limit(limit), fold.figure, None)
-            }
-            ArcEnd::Passes(reason) => (Ending::Passes(reason), self.figure.clone(), None),
-            ArcEnd::Stopped(reason) => (Ending::Stopped(reason), self.figure.clone(), None),
-        };
-        let edited = Edited {
-            ending,
-            t: run.t,
-            dimensions,
-            points: self.in_problem(&at),
-            objects: self.objects_of(&at),
-            orientations: Orientations::new(run.orientations),
-            tubes: run.steps,
-            rejected: run.rejected,
-            length: run.length,
-            switched_on: run.switched_on,
-            account: self.scope(),
-            singular: None,
-            astray: None,
-            dragged: None,
-            seconds: 0.0,
-        };
-        (edited, figure)
-    }
-
-    /// What is special about a fold's figure.
-    fn limit(&self, fold: &Fold, orientations: &[Orientation]) -> Limit {
-        let homotopy = self.arcs.homotopy();
-        let places = fold.figure.points(homotopy);
-        let velocity = Figure {
-            centre: fold.velocity.clone(),
-            low: vec![0.0; fold.velocity.len()],
-            radius: vec![0.0; fold.velocity.len()],
-        };
-        let velocity = velocity.points(homotopy);
-        let d = homotopy.dimension;
-        let turned = velocity.iter().map(|v| {
-            let v = v.each(|x| x.mid());
-            self.stand.turn(d, &places, v)
-        });
-        Limit::new(&places, orientations, turned.collect())
-    }
-
-    /// A figure in the coordinates and lengths of the problem.
-    fn in_problem(&self, figure: &Figure) -> Vec<[Interval; 3]> {
-        let homotopy = self.arcs.homotopy();
-        let unit = point(homotopy.unit);
-        let mut points = figure.points(homotopy);
-        for x in points.iter_mut().flatten() {
-            *x *= unit;
-        }
-        self.put(&points)
-    }
-
     /// A figure of the gauge, in lengths of the problem, in its coordinates.
     pub(super) fn put(&self, places: &[[Interval; 3]]) -> Vec<[Interval; 3]> {
         self.stand.put(self.arcs.homotopy().dimension, places)
@@ -421,10 +269,94 @@ impl Whole {
     }
 }
 
-/// An enclosure of a target length.
-pub(super) fn length(target: &Target) -> Interval {
-    match target {
-        Target::Length(length) => enclose(length),
-        Target::SquaredLength(squared) => enclose(squared).sqrt(),
+impl Way for Whole {
+    fn problem(&self) -> &Problem {
+        &self.problem
+    }
+
+    fn moved(&self) -> Moved {
+        self.moved
+    }
+
+    fn length(&self, index: usize) -> Interval {
+        match self.lengths.get(index) {
+            Some(length) => *length,
+            None => Setting::now(&self.problem, index).value(),
+        }
+    }
+
+    fn figure(&self) -> &Figure {
+        &self.figure
+    }
+
+    fn points_of(&self, figure: &Figure) -> Vec<[Interval; 3]> {
+        let homotopy = self.arcs.homotopy();
+        let unit = point(homotopy.unit);
+        let mut points = figure.points(homotopy);
+        for x in points.iter_mut().flatten() {
+            *x *= unit;
+        }
+        self.put(&points)
+    }
+
+    fn objects_of(&self, figure: &Figure) -> Vec<Located> {
+        let points = self.points_of(figure);
+        let homotopy = self.arcs.homotopy();
+        homotopy.locate(&points, |unknown| figure.enclosure(unknown))
+    }
+
+    fn limit(&self, fold: &Fold, orientations: &[Orientation]) -> Limit {
+        let homotopy = self.arcs.homotopy();
+        let places = fold.figure.points(homotopy);
+        let velocity = Figure {
+            centre: fold.velocity.clone(),
+            low: vec![0.0; fold.velocity.len()],
+            radius: vec![0.0; fold.velocity.len()],
+        };
+        let velocity = velocity.points(homotopy);
+        let d = homotopy.dimension;
+        let turned = velocity.iter().map(|v| {
+            let v = v.each(|x| x.mid());
+            self.stand.turn(d, &places, v)
+        });
+        Limit::new(&places, orientations, turned.collect())
+    }
+
+    fn account(&self) -> Account {
+        self.scope()
+    }
+
+    fn segments(&self) -> &[Segment] {
+        &self.arcs.homotopy().segments
+    }
+
+    fn is_same(&self, a: usize, b: usize, axis: usize) -> bool {
+        is_same_by_constraint(&self.problem)(a, b, axis)
+    }
+
+    fn is_zero(&self, _: usize, _: usize) -> bool {
+        false
+    }
+
+    fn edit(&mut self, settings: &[Setting], keep: Keep, control: &mut Control) -> Edited {
+        // What would come to pass is no part of a chain of edits.
+        let hidden = control.witness.take_if(|_| keep == Keep::Never);
+        let (edited, reached) = self.attempt(settings, control);
+        control.witness = hidden.or(control.witness.take());
+        if let Some((figure, record)) = reached
+            && keep.is_taken(&edited)
+        {
+            self.figure = figure;
+            self.record = record;
+            for setting in settings {
+                setting.apply(&mut self.problem);
+                if let Some(old) = self.lengths.get_mut(setting.index) {
+                    *old = setting.target.enclose();
+                    let homotopy = self.arcs.homotopy_mut();
+                    homotopy.hold(setting.index, &setting.target);
+                }
+            }
+        }
+        edited
     }
 }

@@ -1,7 +1,7 @@
 //! Which distances a motion is followed by, where there are more than say something new, and how it stands to the others.
 
 use super::bounds::{Bounds, measure};
-use crate::blocks::{Account, Floats, Ruler, System, Verdict, enclosed, straight};
+use crate::blocks::{Account, Floats, Ruler, System, Verdict, straight};
 use crate::edit::Round;
 use crate::interval::{Interval, hull};
 use crate::linalg::Span;
@@ -96,7 +96,7 @@ pub(super) fn account(
     let unit = typical_length(problem);
     for &index in left_out {
         let distance = &problem.distances[index];
-        let [target, _] = enclosed(&distance.target);
+        let target = distance.target.enclose();
         let owner = problem.objects.len() + problem.constraints.len() + 1 + index;
         let epsilon = Ruler::new(problem, owner, (unit, 2), None).epsilon;
         let quantity = Quantity::length(problem, distance.points);

@@ -1,7 +1,6 @@
 //! Targets that no figure meets, or only a singular one.
 
 use super::{Remark, tetrahedra, triangles};
-use crate::blocks::enclosed;
 use crate::interval::{Interval, enclose_rational, point};
 use crate::problem::{Problem, Target};
 use crate::rational::Rational;
@@ -13,7 +12,7 @@ fn squared(problem: &Problem, distance: usize) -> Rational {
 
 /// An enclosure of a target length.
 fn length(problem: &Problem, distance: usize) -> Interval {
-    enclosed(&problem.distances[distance].target)[0]
+    problem.distances[distance].target.enclose()
 }
 
 /// The shortest way from one end of a distance to the other along the others, and a bound on its length, not

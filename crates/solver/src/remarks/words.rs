@@ -4,7 +4,7 @@ use super::Remark;
 use super::target::length_in_words;
 use crate::blocks::list_of;
 use crate::places::Each as _;
-use crate::problem::Problem;
+use crate::problem::{Problem, either};
 
 /// A remark as a sentence without its end, with the names of points.
 pub fn in_words(problem: &Problem, remark: &Remark) -> String {
@@ -122,7 +122,7 @@ pub fn in_words(problem: &Problem, remark: &Remark) -> String {
             "{} {} joined to the rest through {} only, and can be mirrored in their {}: every figure has another \
              one with the same dimensions",
             list(part),
-            if part.len() == 1 { "is" } else { "are" },
+            either(part.len(), "is", "are"),
             list(hinge),
             triangle
         ),

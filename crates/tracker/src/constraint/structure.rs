@@ -222,11 +222,8 @@ pub fn check_structure(problem: &Problem) -> Result<(), (Blame, String)> {
             format!(" against {}", list(&names, LISTED))
         };
         parts.push(format!(
-            "under-constrained ({}): {} can still move{against}",
-            match unknowns - found.rows.rank {
-                1 => "1 degree of freedom".to_owned(),
-                n => format!("{n} degrees of freedom"),
-            },
+            "under-constrained ({} of freedom): {} can still move{against}",
+            counted(unknowns - found.rows.rank, "degree"),
             list(&movers, LISTED),
         ));
     }

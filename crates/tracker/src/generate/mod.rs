@@ -19,7 +19,7 @@ mod strip;
 mod tetrahedra;
 mod tower;
 
-use crate::problem::{MAX_POINTS, Problem, free_coordinates};
+use crate::problem::{MAX_POINTS, Problem, counted, free_coordinates};
 use crate::random::Random;
 
 /// A family of structures.
@@ -118,8 +118,8 @@ pub enum GenerateError {
     NoLoops,
     /// No room for the loops.
     #[error(
-        "a size of {size} is too small for {loops} loop{}: `{}` needs at least {least}",
-        if *.loops == 1 { "" } else { "s" }, .family.name()
+        "a size of {size} is too small for {}: `{}` needs at least {least}",
+        counted(*.loops, "loop"), .family.name()
     )]
     TooSmall {
         /// Which family.

@@ -1,16 +1,13 @@
 //! The bend's coefficient where the user states none.
 
-use super::{Decimal, Distance, Target};
+use super::{Decimal, Distance};
 
 /// c is so much of the mean target length: docs/measured/tried.md has the measurements behind it.
 const PART: f64 = 0.05;
 
 /// Part of the mean target length, to six digits: the same path in any unit.
 pub fn default_coefficient(distances: &[Distance]) -> Decimal {
-    let lengths = distances.iter().map(|distance| match &distance.target {
-        Target::Length(length) => length.to_f64(),
-        Target::SquaredLength(squared) => squared.to_f64().sqrt(),
-    });
+    let lengths = distances.iter().map(|distance| distance.target.to_f64());
     let mean = lengths.sum::<f64>() / distances.len().max(1) as f64;
     // Without a distance nothing bends.
     if distances.is_empty() {

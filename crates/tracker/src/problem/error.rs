@@ -1,6 +1,6 @@
 //! What can be wrong with a problem, wherever it comes from.
 
-use super::{DecimalError, counted};
+use super::{DecimalError, counted, either};
 
 /// Why points, distances and homotopy do not make a problem that krawl takes.
 ///
@@ -27,7 +27,7 @@ pub enum ProblemError {
     /// Fewer points than a reference needs.
     #[error(
         "there {} {}, but a problem of dimension {dimension} needs at least {dimension}",
-        if *.given == 1 { "is" } else { "are" }, counted(*.given, "point")
+        either(*.given, "is", "are"), counted(*.given, "point")
     )]
     TooFewPoints {
         /// How many there are.
@@ -398,12 +398,10 @@ fn count_message(
         _ => ("space", format!("3·{points} − 6")),
     };
     let verdict = match needed.abs_diff(given) {
-        1 if given < needed => "1 is missing".to_owned(),
-        n if given < needed => format!("{n} are missing"),
-        1 => "1 is too many".to_owned(),
-        n => format!("{n} are too many"),
+        n if given < needed => format!("{n} {} missing", either(n, "is", "are")),
+        n => format!("{n} {} too many", either(n, "is", "are")),
     };
-    let are = if given == 1 { "is" } else { "are" };
+    let are = either(given, "is", "are");
     let parts = if parts.is_empty() {
         String::new()
     } else {

@@ -27,7 +27,7 @@ pub use crate::statement::{
     Orientation, Point, Pose, Problem, Shape, Target, Terms, Tolerances, free_coordinates,
 };
 #[doc(hidden)]
-pub use crate::statement::{counted, list};
+pub use crate::statement::{counted, either, list};
 #[doc(hidden)]
 pub use bend::default_coefficient as default_bend;
 pub use builder::ProblemBuilder;

@@ -3,6 +3,7 @@
 //! All of this is part of [`crate::problem`], which reads, builds and checks problems; what constraints mean stands between the two.
 
 use crate::decimal::Decimal;
+use crate::interval::{Interval, enclose};
 use crate::rational::Rational;
 use std::collections::BTreeMap;
 
@@ -16,7 +17,7 @@ pub use formula::{Atom, Formula, Terms};
 pub use joint::{JointSort, Pose};
 pub use names::DEPENDS;
 pub use names::nearest;
-pub use names::{counted, list};
+pub use names::{counted, either, list};
 pub use object::most_along;
 pub use object::{AXES, Constraint, Item, Object, Shape};
 pub use orientation::Orientation;
@@ -105,6 +106,22 @@ impl Target {
         match self {
             Target::Length(length) => length.to_f64(),
             Target::SquaredLength(squared) => squared.to_f64().sqrt(),
+        }
+    }
+
+    /// An enclosure of the length.
+    pub fn enclose(&self) -> Interval {
+        match self {
+            Target::Length(length) => enclose(length),
+            Target::SquaredLength(squared) => enclose(squared).sqrt(),
+        }
+    }
+
+    /// An enclosure of its square.
+    pub fn enclose_squared(&self) -> Interval {
+        match self {
+            Target::Length(length) => enclose(length).sqr(),
+            Target::SquaredLength(squared) => enclose(squared),
         }
     }
 }

@@ -3,11 +3,16 @@
 /// What is said of any one of constraints that depend on each other, as long as it is not known which of the two it is.
 pub const DEPENDS: &str = "follows from the others or contradicts them";
 
-/// `1 point`, `2 points`, `2 boxes`.
+/// What is said of one thing, or of none or several.
+pub fn either<'a>(n: usize, one: &'a str, several: &'a str) -> &'a str {
+    if n == 1 { one } else { several }
+}
+
+/// `1 point`, `2 points`, `2 boxes`, `2 sketches`.
 pub fn counted(n: usize, what: &str) -> String {
     match what {
         _ if n == 1 => format!("1 {what}"),
-        _ if what.ends_with('x') => format!("{n} {what}es"),
+        _ if what.ends_with('x') || what.ends_with("ch") => format!("{n} {what}es"),
         _ => format!("{n} {what}s"),
     }
 }

@@ -2,7 +2,7 @@
 
 use super::{ExactLength, Homotopy, Length, Right};
 use crate::constraint::{self, Record, Tail};
-use crate::interval::{Interval, enclose, point};
+use crate::interval::{Interval, point};
 use crate::places::Each as _;
 use crate::problem::{Problem, Target};
 use crate::rational::Rational;
@@ -66,11 +66,7 @@ impl Homotopy {
 
     /// A target's length in the homotopy's unit.
     fn enclose_target(&self, target: &Target) -> Interval {
-        let length = match target {
-            Target::Length(length) => enclose(length),
-            Target::SquaredLength(squared) => enclose(squared).sqrt(),
-        };
-        length * point(1.0 / self.unit)
+        target.enclose() * point(1.0 / self.unit)
     }
 
     fn set_length(&mut self, index: usize, length: Length, from: &Target, to: &Target) {

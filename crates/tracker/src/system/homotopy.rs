@@ -6,7 +6,7 @@ use crate::equations::{Form, Product, Ring, left_side, slopes};
 use crate::interval::vector::distance;
 use crate::interval::{Interval, ZERO, enclose, enclose_rational, point};
 use crate::places::{Each as _, array};
-use crate::problem::{Decimal, Distance, Problem, Shape, Target};
+use crate::problem::{Decimal, Distance, Problem, Shape};
 
 /// Two points at a given distance, as places: `point * dimension` of either.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -301,10 +301,7 @@ impl Homotopy {
                 },
             );
             let sketch = enclose_rational(&squared).sqrt();
-            let target = match &distance.target {
-                Target::Length(length) => enclose(length),
-                Target::SquaredLength(squared) => enclose(squared).sqrt(),
-            };
+            let target = distance.target.enclose();
             let bend = (index == problem.homotopy.bend)
                 .then(|| enclose(&problem.homotopy.bend_coefficient) * per_unit);
             let exact = ExactLength {
@@ -564,10 +561,7 @@ pub fn typical_length(problem: &Problem) -> f64 {
         let mean = places.iter().map(|p| distance(*p, middle)).sum::<f64>() / n;
         if mean > 0.0 { mean } else { 1.0 }
     } else {
-        let lengths = problem.distances.iter().map(|d| match &d.target {
-            Target::Length(length) => length.to_f64(),
-            Target::SquaredLength(squared) => squared.to_f64().sqrt(),
-        });
+        let lengths = problem.distances.iter().map(|d| d.target.to_f64());
         lengths.sum::<f64>() / problem.distances.len() as f64
     };
     2f64.powi(mean.log2().round() as i32)

@@ -14,6 +14,7 @@ use crate::blocks::{Blocks, Choice, FINE, LAST, is_exact, keep, rounded_up, squa
 use crate::constraint::try_lower_all;
 use crate::edit::ending::{Edited, Ending, Keep};
 use crate::edit::setting::Setting;
+use crate::edit::way::Way as _;
 use crate::interval::{Real, point};
 use crate::track::arc::ArcEnd;
 use crate::track::{Control, StopKind};
@@ -209,7 +210,7 @@ impl Parts {
         }
         if !matches!(last.ending, Ending::Reached | Ending::Limit(_)) {
             edited.points = self.points();
-            edited.objects = self.objects();
+            edited.objects = self.objects_of(&self.figure);
         }
         for lost in &mut edited.orientations.lost {
             lost.t = whole(lost.t);

@@ -10,6 +10,7 @@ use crate::blocks::{Choice, FINE, FREE_FIRST, Floats, keep};
 use crate::constraint::{Equation, try_lower_all};
 use crate::edit::drag::{Drag, Dragged};
 use crate::edit::ending::Edited;
+use crate::edit::way::Way as _;
 use crate::interval::{Real, enclose, point};
 use crate::places::{Each as _, array};
 use crate::problem::Decimal;

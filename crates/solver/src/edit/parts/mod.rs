@@ -20,11 +20,13 @@ mod words;
 
 use crate::blocks::{Account, Combination, Cut, Given, Used, Verdict};
 use crate::constraint::try_lower_all;
-use crate::edit::ending::{Astray, Edited, Ending, Keep, Limit, Orientations};
+use crate::edit::drag::Drag;
+use crate::edit::ending::{Astray, Edited, Ending, Keep, Limit};
 use crate::edit::lowered;
 use crate::edit::open::{Moved, OpenError, furthest, reached};
-use crate::edit::segments::{NARROWER, Reversed, first_lost, segments, stop};
+use crate::edit::segments::segments;
 use crate::edit::setting::Setting;
+use crate::edit::way::Way;
 use crate::interval::{Interval, Real, hull, point};
 use crate::places::array;
 use crate::problem::Problem;
@@ -188,7 +190,7 @@ impl Parts {
     /// Leads the sketch to its own dimensions.
     fn lead(&mut self, rights: &[Vec<Real>], control: &mut Control) -> Result<(), OpenError> {
         let mut run = self.follow(rights, control);
-        self.end_where_segments_vanish((&[], rights), &mut run, control);
+        self.end_in_narrow_tubes((&[], rights), &mut run, control);
         let figure = reached(run.end, run.t)?;
         let distance = self.distance(&figure);
         self.moved = Moved {
@@ -254,46 +256,9 @@ impl Parts {
         all.map(blocks).collect()
     }
 
-    pub fn problem(&self) -> &Problem {
-        self.plain.as_deref().unwrap_or(&self.cut.problem)
-    }
-
-    pub fn moved(&self) -> Moved {
-        self.moved
-    }
-
     /// The figure in the coordinates of the problem.
     pub fn points(&self) -> Vec<[Interval; 3]> {
         self.points_of(&self.figure)
-    }
-
-    fn points_of(&self, figure: &Figure) -> Vec<[Interval; 3]> {
-        let (d, unit) = (self.cut.problem.dimension, point(self.cut.unit));
-        let coordinate = |p: usize, axis: usize| match axis < d {
-            true => figure.enclosure(self.cut.coordinate(p, axis)) * unit,
-            false => point(0.0),
-        };
-        (0..self.cut.problem.points.len())
-            .map(|p| array(|axis| coordinate(p, axis)))
-            .collect()
-    }
-
-    /// Where the objects are.
-    pub fn objects(&self) -> Vec<Located> {
-        self.objects_of(&self.figure)
-    }
-
-    fn objects_of(&self, figure: &Figure) -> Vec<Located> {
-        let points = self.points_of(figure);
-        let at = |u: usize| figure.enclosure(u);
-        let system = &self.cut.system;
-        system.locate(
-            &self.cut.problem,
-            &self.cut.told,
-            &points,
-            self.cut.unit,
-            at,
-        )
     }
 
     fn distance(&self, figure: &Figure) -> f64 {
@@ -320,7 +285,7 @@ impl Parts {
             Err(fault) => {
                 let stop = Stop::new(StopKind::Refused, fault);
                 (
-                    self.edited(settings, ArcRun::stopped(stop), self.scope()),
+                    self.edited(settings, ArcRun::stopped(stop), self.account()),
                     None,
                 )
             }
@@ -371,7 +336,7 @@ impl Parts {
         run: &mut ArcRun,
         control: &mut Control,
     ) -> Judged {
-        self.end_where_segments_vanish((settings, rights), run, control);
+        self.end_in_narrow_tubes((settings, rights), run, control);
         let verdicts = match &run.end {
             ArcEnd::Reached(reached) => self.verdicts(reached, rights, None),
             ArcEnd::Limit(fold) => {
@@ -420,49 +385,19 @@ impl Parts {
     }
 
     /// Ends a run where a line or arc shrinks to nothing.
-    fn end_where_segments_vanish(
+    fn end_in_narrow_tubes(
         &mut self,
         (settings, rights): (&[Setting], &[Vec<Real>]),
         run: &mut ArcRun,
         control: &mut Control,
     ) {
-        for radius in NARROWER {
-            if self.lost_segment(settings, run).is_none() {
-                return;
-            }
-            let wide = (self.options.tube_radius, std::mem::take(&mut self.ready));
-            self.options.tube_radius = Some(radius * self.cut.unit);
-            let again = self.follow(rights, control);
-            (self.options.tube_radius, self.ready) = wide;
-            run.steps += again.steps;
-            let is_told = matches!(again.end, ArcEnd::Reached(_) | ArcEnd::Limit(_));
-            if !is_told && self.lost_segment(settings, &again).is_none() {
-                break;
-            }
-            run.segments = again.segments;
-        }
-        if let Some((stop, t)) = self.lost_segment(settings, run) {
-            (run.end, run.t) = (ArcEnd::Stopped(stop), t);
-        }
-    }
-
-    /// Why a run ends at a line or arc that shrinks to nothing, and where, if it does.
-    fn lost_segment(&self, settings: &[Setting], run: &ArcRun) -> Option<(Stop, (f64, f64))> {
-        let head = self.cut.problem.distances.len();
-        let reversed = settings.iter().filter_map(|s| {
-            let (from, to) = (self.value(s.index), s.value());
-            Reversed::new(&self.cut.problem, s.index.checked_sub(head)?, from, to)
+        self.end_where_segments_vanish(settings, run, |parts, radius| {
+            let wide = (parts.options.tube_radius, std::mem::take(&mut parts.ready));
+            parts.options.tube_radius = Some(radius * parts.cut.unit);
+            let again = parts.follow(rights, control);
+            (parts.options.tube_radius, parts.ready) = wide;
+            again
         });
-        let reversed: Vec<Reversed> = reversed.collect();
-        let place = |p: usize, axis: usize| self.cut.coordinate(p, axis);
-        let is_same = |a: usize, b: usize, axis: usize| place(a, axis) == place(b, axis);
-        let is_zero = |p: usize, axis: usize| self.figure.enclosure(place(p, axis)) == point(0.0);
-        let is_asked = |object: usize| {
-            let segment = self.segments.iter().find(|s| s.object == object);
-            segment.is_some_and(|s| reversed.iter().any(|r| r.is_of(s, is_same, is_zero)))
-        };
-        let (kept, t) = first_lost(&run.segments, run.t, is_asked)?;
-        Some((stop(&self.cut.problem, kept), t))
     }
 
     /// What right-hand sides of an equation are divided by. Every product of it has the same power of the unit.
@@ -477,48 +412,51 @@ impl Parts {
             t: (1.0, 1.0),
             ..ArcRun::stopped(Stop::new(StopKind::Enough, ""))
         };
-        self.edited(&[], run, self.scope())
+        self.edited(&[], run, self.account())
+    }
+}
+
+impl Way for Parts {
+    fn problem(&self) -> &Problem {
+        self.plain.as_deref().unwrap_or(&self.cut.problem)
     }
 
-    fn edited(&self, settings: &[Setting], run: ArcRun, account: Account) -> Edited {
-        let t = hull(run.t.0, run.t.1);
-        let is_reached = matches!(run.end, ArcEnd::Reached(_));
-        let t = (!is_reached).then_some(t);
-        let dimensions = settings
-            .iter()
-            .map(|s| s.at(&self.cut.problem, self.value(s.index), t));
-        let dimensions = dimensions.collect();
-        let (ending, reached) = match run.end {
-            ArcEnd::Reached(figure) => (Ending::Reached, Some(figure)),
-            ArcEnd::Limit(fold) => {
-                let limit = self.limit(&fold, &run.orientations);
-                (Ending::Limit(limit), Some(fold.figure))
-            }
-            ArcEnd::Passes(reason) => (Ending::Passes(reason), None),
-            ArcEnd::Stopped(reason) => (Ending::Stopped(reason), None),
+    fn moved(&self) -> Moved {
+        self.moved
+    }
+
+    fn length(&self, index: usize) -> Interval {
+        Setting::now(&self.cut.problem, index).value()
+    }
+
+    fn figure(&self) -> &Figure {
+        &self.figure
+    }
+
+    fn points_of(&self, figure: &Figure) -> Vec<[Interval; 3]> {
+        let (d, unit) = (self.cut.problem.dimension, point(self.cut.unit));
+        let coordinate = |p: usize, axis: usize| match axis < d {
+            true => figure.enclosure(self.cut.coordinate(p, axis)) * unit,
+            false => point(0.0),
         };
-        let figure = reached.as_ref().unwrap_or(&self.figure);
-        let contacts = self.contacts.iter().map(contacts::Kept::in_words);
-        Edited {
-            ending,
-            t: run.t,
-            dimensions,
-            points: self.points_of(figure),
-            objects: self.objects_of(figure),
-            orientations: Orientations::new(run.orientations),
-            tubes: run.steps,
-            rejected: run.rejected,
-            length: run.length,
-            switched_on: contacts.chain(run.switched_on).collect(),
-            account,
-            singular: None,
-            astray: None,
-            dragged: None,
-            seconds: 0.0,
-        }
+        (0..self.cut.problem.points.len())
+            .map(|p| array(|axis| coordinate(p, axis)))
+            .collect()
     }
 
-    /// What is special about a fold's figure.
+    fn objects_of(&self, figure: &Figure) -> Vec<Located> {
+        let points = self.points_of(figure);
+        let at = |u: usize| figure.enclosure(u);
+        let system = &self.cut.system;
+        system.locate(
+            &self.cut.problem,
+            &self.cut.told,
+            &points,
+            self.cut.unit,
+            at,
+        )
+    }
+
     fn limit(&self, fold: &Fold, orientations: &[Orientation]) -> Limit {
         let d = self.cut.problem.dimension;
         let motion = (0..self.cut.problem.points.len()).map(|p| {
@@ -534,9 +472,65 @@ impl Parts {
         )
     }
 
-    /// What a dimension is now: an enclosure.
-    pub fn value(&self, index: usize) -> Interval {
-        Setting::now(&self.cut.problem, index).value()
+    fn account(&self) -> Account {
+        self.account_of(|k| {
+            self.verdicts
+                .get(k)
+                .copied()
+                .unwrap_or(Verdict::NotLookedAt)
+        })
+    }
+
+    fn remarks(&self) -> Vec<String> {
+        let contacts = self.contacts.iter().map(contacts::Kept::in_words);
+        contacts.collect()
+    }
+
+    fn segments(&self) -> &[Segment] {
+        &self.segments
+    }
+
+    fn is_same(&self, a: usize, b: usize, axis: usize) -> bool {
+        self.cut.coordinate(a, axis) == self.cut.coordinate(b, axis)
+    }
+
+    fn is_zero(&self, p: usize, axis: usize) -> bool {
+        self.figure.enclosure(self.cut.coordinate(p, axis)) == point(0.0)
+    }
+
+    /// Changes dimensions by a path, and where a figure that is singular itself has none, by a figure moved off that place.
+    fn edit(&mut self, settings: &[Setting], keep: Keep, control: &mut Control) -> Edited {
+        let edited = self.follow_to(settings, keep, control);
+        let is_contradiction = matches!(
+            &edited.ending, Ending::Stopped(stop) if stop.kind == StopKind::Contradiction
+        );
+        match is_contradiction && self.is_singular() {
+            true => self.moved_off(settings, keep, control).unwrap_or(edited),
+            false => edited,
+        }
+    }
+
+    /// Changes dimensions by a path, and in no other way.
+    fn follow_to(&mut self, settings: &[Setting], keep: Keep, control: &mut Control) -> Edited {
+        let mut edited = self.continued(settings, keep, control);
+        if let Some(astray) = edited.astray.as_mut().filter(|_| self.is_singular()) {
+            astray.stop = self.sober(astray.stop.clone());
+        }
+        match &edited.ending {
+            Ending::Stopped(stop) if stop.kind == StopKind::Contradiction && self.is_singular() => {
+                let ending = Ending::Stopped(self.sober(stop.clone()));
+                Edited { ending, ..edited }
+            }
+            _ => self.go_on(settings, keep, edited, control),
+        }
+    }
+
+    fn drag(&mut self, drags: &[Drag], control: &mut Control) -> Edited {
+        self.drag(drags, control)
+    }
+
+    fn parts(&self) -> Option<&Parts> {
+        Some(self)
     }
 }
 

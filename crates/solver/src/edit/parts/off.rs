@@ -2,8 +2,9 @@
 
 use super::Parts;
 use crate::blocks::Singular;
-use crate::edit::ending::{Dimension, Edited, Ending, Keep};
+use crate::edit::ending::{Dimension, Edited, Keep};
 use crate::edit::setting::Setting;
+use crate::edit::way::Way as _;
 use crate::places::Each as _;
 use crate::problem::Problem;
 use crate::track::{Control, Stop, StopKind};
@@ -52,35 +53,8 @@ impl Parts {
     }
 
     /// Whether the figure is singular itself, or would be without what was added for contacts.
-    fn is_singular(&self) -> bool {
+    pub(super) fn is_singular(&self) -> bool {
         self.is_singular_figure() || self.plain.is_some()
-    }
-
-    /// Changes dimensions by a path, and where a figure that is singular itself has none, by a figure moved off that place.
-    pub fn edit(&mut self, settings: &[Setting], keep: Keep, control: &mut Control) -> Edited {
-        let edited = self.follow_to(settings, keep, control);
-        let is_contradiction = matches!(
-            &edited.ending, Ending::Stopped(stop) if stop.kind == StopKind::Contradiction
-        );
-        match is_contradiction && self.is_singular() {
-            true => self.moved_off(settings, keep, control).unwrap_or(edited),
-            false => edited,
-        }
-    }
-
-    /// Changes dimensions by a path, and in no other way.
-    pub fn follow_to(&mut self, settings: &[Setting], keep: Keep, control: &mut Control) -> Edited {
-        let mut edited = self.continued(settings, keep, control);
-        if let Some(astray) = edited.astray.as_mut().filter(|_| self.is_singular()) {
-            astray.stop = self.sober(astray.stop.clone());
-        }
-        match &edited.ending {
-            Ending::Stopped(stop) if stop.kind == StopKind::Contradiction && self.is_singular() => {
-                let ending = Ending::Stopped(self.sober(stop.clone()));
-                Edited { ending, ..edited }
-            }
-            _ => self.go_on(settings, keep, edited, control),
-        }
     }
 
     /// The drawing, moved off where it is singular in another way than the first, and led to its dimensions.
@@ -117,7 +91,7 @@ impl Parts {
 
     /// From a figure that is singular itself no continuation is the one: its points are moved off that place, and led to the
     /// new dimensions from there. `None` if that leads nowhere.
-    fn moved_off(
+    pub(super) fn moved_off(
         &mut self,
         settings: &[Setting],
         keep: Keep,
@@ -132,7 +106,7 @@ impl Parts {
         parts.cut.singular.as_ref()?.moved?;
         let dimensions = settings.iter().map(|setting| Dimension {
             index: setting.index,
-            from: self.value(setting.index),
+            from: self.length(setting.index),
             to: setting.value(),
             value: setting.value(),
         });

@@ -20,16 +20,6 @@ impl Parts {
         }
     }
 
-    /// What is proved of the figure as it is now.
-    pub fn scope(&self) -> Account {
-        self.account_of(|k| {
-            self.verdicts
-                .get(k)
-                .copied()
-                .unwrap_or(Verdict::NotLookedAt)
-        })
-    }
-
     /// How the equations fall apart.
     pub fn decomposition(&self) -> Decomposition {
         let blocks = self.cut.blocks.blocks.iter().zip(&self.cut.is_exact);

@@ -9,6 +9,7 @@ pub(super) use sketch::{coincide, collinear};
 
 use super::{DEPENDS, Distance, Point, ProblemError, free_coordinates, list};
 use crate::order::each_once;
+use crate::statement::{counted, either};
 
 /// Most names in one list of a message.
 const LISTED: usize = 12;
@@ -79,8 +80,7 @@ fn under_constrained(
 ) -> Option<String> {
     let freedoms = match needed - found.rank {
         0 => return None,
-        1 => "1 degree of freedom".to_owned(),
-        n => format!("{n} degrees of freedom"),
+        n => counted(n, "degree") + " of freedom",
     };
     let name = |&p: &usize| points[p].name.as_str();
     let names = |part: &[usize]| part.iter().map(name).collect::<Vec<_>>();
@@ -94,11 +94,7 @@ fn under_constrained(
             let free: Vec<usize> = (0..points.len()).filter(|p| !largest.contains(p)).collect();
             let mut text = format!(
                 "under-constrained ({freedoms}): {} {} can move against the rigid part {}",
-                if free.len() == 1 {
-                    "the point"
-                } else {
-                    "the points"
-                },
+                either(free.len(), "the point", "the points"),
                 list(&names(&free), LISTED),
                 list(&names(largest), LISTED),
             );

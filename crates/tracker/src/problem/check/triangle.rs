@@ -1,8 +1,8 @@
 //! Lengths that no triangle has.
 
-use crate::interval::{Interval, enclose};
+use crate::interval::Interval;
 use crate::places::Each as _;
-use crate::problem::{Problem, Target};
+use crate::problem::Problem;
 
 impl Problem {
     /// Says which target lengths no figure has, where three of them belong to a triangle and one is longer
@@ -27,10 +27,7 @@ impl Problem {
         let lengths: Vec<Interval> = self
             .distances
             .iter()
-            .map(|distance| match &distance.target {
-                Target::Length(length) => enclose(length),
-                Target::SquaredLength(square) => enclose(square).sqrt(),
-            })
+            .map(|distance| distance.target.enclose())
             .collect();
         // The distances of each point: the other end, and which.
         let mut joined = vec![Vec::new(); self.points.len()];

@@ -3,8 +3,8 @@
 use super::format::{Cover, Kind, Radius};
 use super::model::Model;
 use super::pairs::Pairs;
-use crate::interval::{Interval, enclose, point};
-use crate::problem::{Problem, Target};
+use crate::interval::{Interval, point};
+use crate::problem::Problem;
 
 /// A point, or a difference of points.
 pub type Place = [Model; 3];
@@ -70,13 +70,8 @@ impl<'a> Plan<'a> {
             return Err("a plan with more than 256 points".to_owned());
         }
         let per_unit = point(2f64.powi(-i32::from(cover.unit_exponent)));
-        let squares = problem.distances.iter().map(|e| {
-            let square = match &e.target {
-                Target::Length(length) => enclose(length).sqr(),
-                Target::SquaredLength(square) => enclose(square),
-            };
-            square * per_unit * per_unit
-        });
+        let squares = problem.distances.iter();
+        let squares = squares.map(|e| e.target.enclose_squared() * per_unit * per_unit);
         let squares: Vec<Interval> = squares.collect();
         // Bounds of pairs rest on it (`pairs`).
         if !squares.iter().all(|s| s.sup() < 1e60) {

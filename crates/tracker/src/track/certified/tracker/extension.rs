@@ -2,6 +2,7 @@
 
 use super::{EXIT, Test, Tracker};
 use crate::order::each_once;
+use crate::problem::counted;
 use crate::track::certified::reasons::Rejection;
 use crate::track::full::{Local, Preconditioner, RefineError};
 
@@ -97,9 +98,9 @@ impl Extension {
                 (_, 1) => format!(", t from {from:.12} to {to:.12}"),
                 (_, n) => format!(" in {n} stretches, t from {from:.12} to {to:.12}"),
             };
-            let plural = if tubes == 1 { "" } else { "s" };
             format!(
-                "extended precision (double-double), {tubes} tube{plural}{place}: 53 bits could not {why}"
+                "extended precision (double-double), {}{place}: 53 bits could not {why}",
+                counted(tubes, "tube")
             )
         };
         let reasons = each_once(self.stretches.iter().map(|s| s.why));

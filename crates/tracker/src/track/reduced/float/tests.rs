@@ -1,7 +1,7 @@
 use super::track;
 use crate::places::Each as _;
 use crate::plan::testing::{rigid, shipped};
-use crate::problem::{Problem, Target};
+use crate::problem::Problem;
 use crate::system::Homotopy;
 use crate::track::{Control, Options, Outcome, Preset, Space, Status};
 use proptest::prelude::*;
@@ -63,11 +63,7 @@ fn off_target(problem: &Problem, outcome: &Outcome) -> f64 {
                 .map(|k| (a[k].mid() - b[k].mid()).powi(2))
                 .sum::<f64>()
                 .sqrt();
-            let target = match &distance.target {
-                Target::Length(length) => length.to_f64(),
-                Target::SquaredLength(squared) => squared.to_f64().sqrt(),
-            };
-            worst = worst.max((length - target).abs());
+            worst = worst.max((length - distance.target.to_f64()).abs());
         }
     }
     worst
