@@ -13,7 +13,7 @@ fn decimal(x: f64) -> Decimal {
 }
 
 /// All figures with every length that has no limits of its own within `tolerance` of what it is.
-fn within(problem: &Problem, tolerance: f64, asked: &[&str]) -> Set {
+fn within(problem: &Problem, tolerance: f64, asked: &[&str]) -> Result<Set, String> {
     let both = [-tolerance, tolerance].map(decimal);
     let limits = limits(problem, &[], Some(&both)).unwrap();
     let asked: Vec<String> = asked.iter().map(|&text| text.to_owned()).collect();
@@ -22,7 +22,7 @@ fn within(problem: &Problem, tolerance: f64, asked: &[&str]) -> Set {
         ..complete::Options::default()
     };
     let options = (&Options::certified(), &search);
-    study_all(problem, &limits, &asked, options, &mut Control::default()).unwrap()
+    study_all(problem, &limits, &asked, options, &mut Control::default())
 }
 
 /// Numbers from 0 to 1, the same each time.
@@ -60,7 +60,7 @@ fn both_figures_of_a_kite_are_bounded_as_their_triangles_are() {
         (x, (from_a * from_a - x * x).sqrt())
     };
     for tolerance in [0.001, 0.01, 0.02] {
-        let set = within(&kite(), tolerance, &["c-d"]);
+        let set = within(&kite(), tolerance, &["c-d"]).unwrap();
         assert!(set.undecided.is_empty(), "{tolerance}: {set:?}");
         assert_eq!(set.figures.len(), 2);
         let bounds = set.figures.iter().map(|figure| {
@@ -105,11 +105,11 @@ fn what_comes_together_within_its_limits_is_undecided() {
         let triangle = triangle.distance("a", "b", 4).distance("b", "c", third);
         triangle.distance("c", "a", "2.01").finish().unwrap()
     };
-    let set = within(&flat("2.01"), 0.02, &[]);
+    let set = within(&flat("2.01"), 0.02, &[]).unwrap();
     assert!(!set.undecided.is_empty(), "{set:?}");
     assert_eq!(set.figures.len(), 0);
     // There is one with limits that are narrow enough.
-    let set = within(&flat("2.01"), 0.0001, &[]);
+    let set = within(&flat("2.01"), 0.0001, &[]).unwrap();
     assert!(set.undecided.is_empty(), "{set:?}");
     assert_eq!(set.figures.len(), 1);
 }
@@ -118,7 +118,7 @@ fn what_comes_together_within_its_limits_is_undecided() {
 fn mirror_images_are_two_figures_where_the_coordinates_are_fixed() {
     let text = "name = \"arm\"\ndimension = 2\n[points]\na = [0, 0]\nb = [4, 0]\nc = [1, 2]\n[constraints]\nfixed = [\"a\", \"b\"]\n\
                 distances = [[\"a\", \"c\", 3], [\"b\", \"c\", 3]]\n";
-    let set = within(&Problem::parse(text, "arm.toml").unwrap(), 0.05, &["y c"]);
+    let set = within(&Problem::parse(text, "arm.toml").unwrap(), 0.05, &["y c"]).unwrap();
     assert!(set.undecided.is_empty(), "{set:?}");
     let sides: Vec<f64> = set
         .figures
@@ -198,7 +198,10 @@ fn campaign(count: usize, points: std::ops::Range<usize>) -> [usize; 2] {
     for round in 0..count {
         let problem = framework(&mut dice, points.start + round % points.len());
         let tolerance = [0.0001, 0.002, 0.02][round / 2 % 3];
-        let set = within(&problem, tolerance, &[]);
+        // Some are drawn where they turn back.
+        let Ok(set) = within(&problem, tolerance, &[]) else {
+            continue;
+        };
         let bands: Vec<Vec<Interval>> = set.figures.iter().map(|f| pairs(&f.bands)).collect();
         figures += bands.len();
         decided += usize::from(set.undecided.is_empty());
