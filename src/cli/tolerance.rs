@@ -37,7 +37,8 @@ pub struct Arguments {
     source: input::Source,
     /// Look for every figure that meets the dimensions, not the one drawn alone
     ///
-    /// With a proof that no choice of the dimensions has another one, and what is measured of each; signs that are asked for are not looked at
+    /// With a proof that no choice of the dimensions has another one, and what is measured of each (not of figures with lines, planes or bodies of
+    /// their own); signs that are asked for are not looked at
     #[arg(long, conflicts_with = "csv")]
     all: bool,
     /// Threads for --all [default: one per processor]; the answer does not depend on it
@@ -111,7 +112,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
     );
     let mut study = match study {
         Err(_) if control.is_interrupted() => {
-            output::complain("interrupted before anything was proved");
+            output::complain(INTERRUPTED);
             return Ok(STOPPED);
         }
         study => study.map_err(in_file)?,
@@ -132,6 +133,8 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
     }
     Ok(if written { CLOSED } else { BAD_INPUT })
 }
+
+const INTERRUPTED: &str = "interrupted before anything was proved";
 
 /// Looks for every figure.
 fn run_all(
@@ -154,7 +157,13 @@ fn run_all(
     let options = (&Options::certified(), &search);
     let set = study_all(problem, limits, &texts, options, &mut control);
     line.clear();
-    let mut set = set.map_err(|error| format!("{}: {error}", arguments.source.file.display()))?;
+    let mut set = match set {
+        Err(_) if control.is_interrupted() => {
+            output::complain(INTERRUPTED);
+            return Ok(STOPPED);
+        }
+        set => set.map_err(|error| format!("{}: {error}", arguments.source.file.display()))?,
+    };
     set.account.join(made);
     let mut written = true;
     if let Some(json) = json {
@@ -167,7 +176,7 @@ fn run_all(
     }
     Ok(match written {
         false => BAD_INPUT,
-        true if set.undecided.is_empty() => CLOSED,
+        true if set.undecided.is_empty() && !control.is_interrupted() => CLOSED,
         true => STOPPED,
     })
 }

@@ -425,23 +425,25 @@ fn verdict(problem: &Problem, result: &Complete) -> String {
         let figures = counted(signed.undecided as usize, "figure");
         struck += &format!(" Of {figures} a sign cannot be told: these are not counted.");
     }
-    let names: Vec<String> = result
-        .both_ways
-        .iter()
-        .map(|name| format!("`{name}`"))
-        .collect();
     let mut words = without_sides(problem, result);
-    if !names.is_empty() && result.count != Some(0) {
-        let (of, them) = match names.len() {
-            1 => ("", "it"),
-            _ => ("each of ", "them"),
-        };
-        words += &format!(
-            " Both directions of {of}{} are counted: what is on one side of {them} may be on the other.",
-            names.join(", ")
-        );
+    if result.count != Some(0) {
+        words += &both_ways_in_words(&result.both_ways);
     }
     words + &struck + &supposed(problem)
+}
+
+/// That figures with either direction of some lines and planes, if there are any, are counted.
+pub(super) fn both_ways_in_words(names: &[String]) -> String {
+    let names: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
+    let (of, them) = match names.len() {
+        0 => return String::new(),
+        1 => ("", "it"),
+        _ => ("each of ", "them"),
+    };
+    format!(
+        " Both directions of {of}{} are counted: what is on one side of {them} may be on the other.",
+        names.join(", ")
+    )
 }
 
 /// The same but for what is said of sides and lengths.

@@ -1,7 +1,7 @@
 //! What tolerances do to a figure, for people and for programs.
 
 use super::certain_digits;
-use super::complete::{counted_once, why};
+use super::complete::{both_ways_in_words, counted_once, why};
 use super::drawing::Drawing;
 use super::edit::{bounds, points_to_value};
 use super::sweep::quoted;
@@ -84,7 +84,11 @@ pub fn tolerance_set_in_words(problem: &Problem, set: &Set) -> String {
 
 /// All figures as text: of each the bounds of what is measured, and what each dimension has to do with it.
 pub fn tolerance_set_to_table(problem: &Problem, set: &Set) -> String {
-    let mut out = tolerance_set_in_words(problem, set) + ".\n";
+    let mut out = tolerance_set_in_words(problem, set) + ".";
+    if !set.figures.is_empty() {
+        out += &both_ways_in_words(&set.both_ways);
+    }
+    out.push('\n');
     for part in &set.undecided {
         let parts = counted(part.count as usize, "part");
         out += &format!(
@@ -98,7 +102,7 @@ pub fn tolerance_set_to_table(problem: &Problem, set: &Set) -> String {
     for (number, figure) in (1..).zip(&set.figures) {
         out += &match &figure.study {
             Ok(study) => format!("\nFigure {number}\n{}", measured_to_table(problem, study)),
-            Err(why) => format!("\nFigure {number}: {why}.\n"),
+            Err(why) => format!("\nFigure {number} is not measured: {why}.\n"),
         };
     }
     if set.figures.iter().any(|figure| figure.study.is_ok()) {
@@ -138,6 +142,7 @@ pub fn tolerance_set_to_value(problem: &Problem, set: &Set) -> Value {
         "words": tolerance_set_in_words(problem, set),
         "account": set.account,
         "limits": limits_to_value(problem, &set.limits),
+        "both_ways": set.both_ways,
         "undecided": undecided.collect::<Vec<_>>(),
         "figures": figures.collect::<Vec<_>>(),
     }))

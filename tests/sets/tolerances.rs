@@ -3,8 +3,9 @@
 use crate::common::edits::Random;
 use crate::common::mixed::Spec;
 use krawl::complete::{self, Status, all};
+use krawl::edit::Limits;
 use krawl::interval::{Interval, hull};
-use krawl::problem::{Decimal, Problem};
+use krawl::problem::{Decimal, Problem, Target};
 use krawl::tolerance::{Set, limits, study_all};
 use krawl::track::{Control, Options};
 
@@ -206,17 +207,10 @@ fn campaign(count: usize, points: std::ops::Range<usize>) -> [usize; 2] {
         figures += bands.len();
         decided += usize::from(set.undecided.is_empty());
         for _ in 0..3 {
-            let mut chosen = problem.clone();
-            for (index, limits) in set.limits.iter().enumerate() {
-                let part = match dice.roll() {
-                    x if x < 0.5 => dice.roll().round(),
-                    _ => dice.roll(),
-                };
-                let [low, high] = limits.values.each_ref().map(Decimal::to_f64);
-                let length = format!("{:.7}", low + part * (high - low));
-                chosen.distances[index].target =
-                    krawl::problem::Target::Length(length.parse().unwrap());
-            }
+            let chosen = chosen(&problem, &set.limits, || match dice.roll() {
+                x if x < 0.5 => dice.roll().round(),
+                _ => dice.roll(),
+            });
             let found = all(&chosen, &complete::Options::default()).unwrap();
             let found_pairs: Vec<Vec<Interval>> =
                 found.solutions.iter().map(|s| pairs(&s.points)).collect();
@@ -274,9 +268,38 @@ fn frameworks_have_as_many_figures_whatever_their_lengths_at_length() {
     );
 }
 
-/// With limits that are next to nothing there are as many figures as without, for constraints of many kinds; with wider ones as many or it is not said.
+/// Limits of all dimensions that can have some: lengths, radii, coordinates and angles.
+fn of_all(problem: &Problem, tolerance: f64) -> Vec<Limits> {
+    let both = [-tolerance, tolerance].map(decimal);
+    let named = problem.dimensions().filter_map(|index| {
+        let at = index.checked_sub(problem.distances.len())?;
+        let kind = problem.constraints[at].kind.as_str();
+        let has_limits = ["x", "y", "z", "dx", "dy", "dz", "angles"].contains(&kind);
+        has_limits.then(|| (problem.dimension_name(index), both.clone()))
+    });
+    limits(problem, &named.collect::<Vec<_>>(), Some(&both)).unwrap()
+}
+
+/// The problem with each of these dimensions somewhere in its limits.
+fn chosen(problem: &Problem, limits: &[Limits], mut part: impl FnMut() -> f64) -> Problem {
+    let mut chosen = problem.clone();
+    for limits in limits {
+        let [low, high] = limits.values.each_ref().map(Decimal::to_f64);
+        let value: Decimal = format!("{:.9}", low + part() * (high - low))
+            .parse()
+            .unwrap();
+        match limits.index.checked_sub(problem.distances.len()) {
+            None => chosen.distances[limits.index].target = Target::Length(value),
+            Some(at) => chosen.constraints[at].value = Some(value),
+        }
+    }
+    chosen
+}
+
+/// Of constraints of many kinds: for choices at random and at the ends of limits there are as many figures as is said, if that is.
 fn of_many_kinds(dimension: usize, tries: usize, seed: u64) -> [usize; 2] {
     let mut random = Random(seed);
+    let mut dice = Dice(seed);
     let [mut compared, mut figures] = [0; 2];
     for number in 0..tries {
         let Some((_, problem)) = Spec::random(dimension, &mut |n| random.below(n)) else {
@@ -286,40 +309,35 @@ fn of_many_kinds(dimension: usize, tries: usize, seed: u64) -> [usize; 2] {
             most_boxes: 3000,
             ..complete::Options::default()
         };
-        let Ok(found) = all(&problem, &search) else {
-            continue;
-        };
-        if found.status != Status::Complete || !found.both_ways.is_empty() {
-            continue;
-        }
         for tolerance in [1e-6, 1e-2] {
-            let both = [-tolerance, tolerance].map(decimal);
-            let limits = limits(&problem, &[], Some(&both)).unwrap();
+            let limits = of_all(&problem, tolerance);
             let options = (&Options::certified(), &search);
             let set = study_all(&problem, &limits, &[], options, &mut Control::default());
-            // A sketch need not lead to a figure.
+            // A sketch need not lead to a figure, and some limits make no sense.
             let Some(set) = set.ok().filter(|set| set.undecided.is_empty()) else {
                 continue;
             };
-            compared += 1;
-            figures += set.figures.len();
-            assert_eq!(
-                set.figures.len(),
-                found.solutions.len(),
-                "{number}, {tolerance}:\n{}",
-                problem.to_toml()
-            );
-            for solution in &found.solutions {
-                let one = pairs(&solution.points);
-                let is_in =
-                    |band: &Vec<Interval>| one.iter().zip(band).all(|(x, b)| !x.disjoint(*b));
-                assert!(
-                    set.figures
-                        .iter()
-                        .any(|figure| is_in(&pairs(&figure.bands))),
-                    "{number}, {tolerance}:\n{}",
-                    problem.to_toml()
-                );
+            for round in 0..4 {
+                let chosen = match round {
+                    0 => problem.clone(),
+                    1 | 2 => chosen(&problem, &limits, || dice.roll().round()),
+                    _ => chosen(&problem, &limits, || dice.roll()),
+                };
+                let found = match all(&chosen, &search) {
+                    Ok(found) if found.status == Status::Complete => found,
+                    _ => continue,
+                };
+                compared += 1;
+                figures += set.figures.len();
+                let what = || format!("{number}, {tolerance}:\n{}", chosen.to_toml());
+                assert_eq!(set.figures.len(), found.solutions.len(), "{}", what());
+                for solution in &found.solutions {
+                    let one = pairs(&solution.points);
+                    let is_in =
+                        |band: &Vec<Interval>| one.iter().zip(band).all(|(x, b)| !x.disjoint(*b));
+                    let mut bands = set.figures.iter().map(|figure| pairs(&figure.bands));
+                    assert!(bands.any(|band| is_in(&band)), "{}", what());
+                }
             }
         }
     }
@@ -330,7 +348,7 @@ fn of_many_kinds(dimension: usize, tries: usize, seed: u64) -> [usize; 2] {
 fn constraints_of_many_kinds_have_as_many_figures_within_limits() {
     let [compared, figures] = of_many_kinds(2, 60, 21);
     assert!(
-        compared >= 8 && figures >= 10,
+        compared >= 16 && figures >= 20,
         "{compared} compared, {figures} figures"
     );
 }
@@ -340,4 +358,40 @@ fn constraints_of_many_kinds_have_as_many_figures_within_limits() {
 fn constraints_of_many_kinds_have_as_many_figures_within_limits_at_length() {
     println!("{:?}", of_many_kinds(2, 1000, 22));
     println!("{:?}", of_many_kinds(3, 300, 23));
+}
+
+/// At a right angle two lines are the same whichever way they run, and beside it they are not: how many figures there are is said of no limits
+/// that hold both.
+#[test]
+fn right_angles_with_limits_are_right_for_some_choices_alone() {
+    let lines = |b: [i32; 2], constraints: &str, angle: &str| {
+        let [x, y] = b;
+        let text = format!(
+            "name = \"lines\"\ndimension = 2\n[points]\na = [1, 2]\nb = [{x}, {y}]\nc = [3, 9]\n[lines]\n\
+             l = {{ point = [1, 2], direction = [1, 0] }}\nk = {{ point = [3, 9], direction = [0, 1] }}\n\
+             [constraints]\nfixed = [\"a\", \"b\", \"c\"]\n{constraints}\nangles = [[\"l\", \"k\", {angle}]]\n"
+        );
+        Problem::parse(&text, "lines.toml").unwrap()
+    };
+    let through = "on = [[\"a\", \"l\"], [\"b\", \"l\"], [\"c\", \"k\"]]";
+    let beside = "on = [[\"a\", \"l\"], [\"c\", \"k\"]]\ndistances = [[\"b\", \"l\", 2.5]]";
+    for (b, constraints) in [([6, 2], through), ([6, 5], beside)] {
+        for (angle, tolerance, is_right) in [("90", 1e-6, true), ("89.9", 0.01, false)] {
+            let problem = lines(b, constraints, angle);
+            let limits = of_all(&problem, tolerance);
+            assert_eq!(limits.len(), 1);
+            let search = complete::Options::default();
+            let options = (&Options::certified(), &search);
+            let set = study_all(&problem, &limits, &[], options, &mut Control::default()).unwrap();
+            if is_right {
+                assert!(!set.undecided.is_empty(), "{set:?}");
+                continue;
+            }
+            assert!(set.undecided.is_empty(), "{set:?}");
+            let found = all(&problem, &search).unwrap();
+            assert_eq!(found.status, Status::Complete);
+            assert_eq!(set.figures.len(), found.solutions.len());
+            assert_eq!(set.both_ways, found.both_ways);
+        }
+    }
 }

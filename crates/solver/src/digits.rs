@@ -193,7 +193,7 @@ pub(crate) fn drawn(
             (Shape::Body { place: None, .. }, _) => {}
             _ => {
                 return Err(format!(
-                    "{} is no point, circle, sphere or unknown, nor told by points",
+                    "{} is a line, plane, body or joint with a place of its own",
                     object.name
                 ));
             }

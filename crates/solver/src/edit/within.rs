@@ -9,7 +9,7 @@ use crate::constraint::try_lower_apart;
 use crate::elimination::invert;
 use crate::interval::{Interval, hull, point};
 use crate::problem::{Decimal, Problem, Target};
-use crate::system::Homotopy;
+use crate::system::{Homotopy, Right};
 use crate::track::{Control, Options, StartError};
 use std::slice;
 
@@ -112,8 +112,9 @@ impl Limited {
     pub fn ranges(&self) -> Homotopy {
         let mut homotopy = self.whole.homotopy().clone();
         for (right, &range) in homotopy.rights.iter_mut().zip(&self.rights) {
-            *right = right.clone().within(range);
+            *right = Right::anywhere(range);
         }
+        homotopy.reduce_twins();
         homotopy
     }
 

@@ -35,7 +35,9 @@ use crate::track::{Control, Options};
 /// A coordinate known as well as this, in units of length, is where it is drawn, if that is there.
 const STANDS: f64 = 1e-12;
 
-const NOT_BOUNDED: &str = "it is there for every choice, in the band that is told, but what is measured of it is bounded with narrower limits only";
+const NOT_BOUNDED: &str =
+    "it is there for every choice, but bounds are proved with narrower limits only";
+const OTHERWISE: &str = "it is there for every choice, but drawn as it is it has other equations";
 
 /// All figures that meet dimensions within limits.
 #[derive(Debug)]
@@ -48,6 +50,8 @@ pub struct Set {
     pub symmetry: Symmetry,
     /// The figures: for every choice of all dimensions together each of them is there once, and no two are the same.
     pub figures: Vec<OfSet>,
+    /// Lines and planes of their own, by name, whose two directions are told apart: figures with either are counted.
+    pub both_ways: Vec<String>,
     /// What of the space is undecided. If nothing is, no choice has any other figure.
     pub undecided: Vec<Part>,
 }
@@ -88,7 +92,7 @@ pub fn study_all(
         let bands = limited.put(&points);
         let mut study = || {
             if control.is_interrupted() {
-                return Err("the run was ended before it was measured".to_owned());
+                return Err("the run was ended before".to_owned());
             }
             let places = problem.points.iter().zip(&bands);
             // What stands is where it is drawn.
@@ -104,7 +108,10 @@ pub fn study_all(
             // What it becomes with each choice is the figure of the box, as it is that with one of them.
             let is_it = own.is_same(&limited)
                 && (0..homotopy.equations).all(|i| own.nominal(i).subset(x[i]));
-            let within = own.prove().filter(|_| is_it).ok_or(NOT_BOUNDED)?;
+            if !is_it {
+                return Err(OTHERWISE.to_owned());
+            }
+            let within = own.prove().ok_or(NOT_BOUNDED)?;
             studied(&drawn, limits, within, &quantities, control)
         };
         let study = study();
@@ -116,6 +123,7 @@ pub fn study_all(
         account: limited.account(),
         symmetry: symmetry(problem),
         figures: figures.map(|x| of_figure(x, control)).collect(),
+        both_ways: found.both_ways,
         undecided: found.undecided,
     })
 }

@@ -2,9 +2,11 @@
 
 use super::Homotopy;
 use crate::constraint::Entry;
-use crate::equations::sign;
+use crate::elimination::Echelon;
+use crate::equations::{Ring, sign};
 use crate::interval::ZERO;
 use crate::problem::{Problem, most_along};
+use crate::residues::Residue;
 
 impl Homotopy {
     /// Whether the equations at t = 1 hold with these unknowns' signs changed wherever they hold without: each stays as it is, or
@@ -14,6 +16,22 @@ impl Homotopy {
             let sign = sign(&self.terms(e), |entry| entry.map(|i| changes[i]));
             sign.is_some_and(|reversed| !reversed || self.rights[e].at_target() == ZERO)
         })
+    }
+
+    /// Keeps, of the changes of sign with which a figure stays as it is and their sums, those with which the equations hold whatever their
+    /// right-hand sides now are: where some of these were 0 and are ranges, fewer do.
+    #[doc(hidden)]
+    pub fn reduce_twins(&mut self) {
+        let first = self.gauge.place.len();
+        let mut echelon = Echelon::<Residue<2>>::new(self.equations);
+        let mut basis = Vec::new();
+        for twin in self.twins().unwrap_or_default() {
+            let bits = twin.iter().map(|&change| Residue::whole(change.into()));
+            if self.keeps(&twin) && echelon.take(&mut bits.collect::<Vec<_>>()) {
+                basis.push(twin[first..].to_vec());
+            }
+        }
+        self.tail.twins = basis;
     }
 
     /// Whether two different solutions may be one figure: with the same points and radii, and with lines and planes of

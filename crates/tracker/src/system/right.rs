@@ -30,6 +30,8 @@ enum Exact {
     HalfSquare(ExactLength),
     /// A polynomial, divided by a power of two.
     Polynomial(Vec<Real>, Rational),
+    /// Any number of a range.
+    Anywhere(Interval),
 }
 
 /// A number and how far the exact one may be from it.
@@ -65,6 +67,13 @@ impl Right {
         let unit = Rational::from_float(unit).expect("a unit is a power of two");
         let exact = Exact::Polynomial(coefficients.to_vec(), unit);
         Self::new(enclosures, target, exact, if high { MAX_DEGREE } else { 2 })
+    }
+
+    /// A number that is anywhere in a bounded range, whatever t is: what is proved with it holds for each of them.
+    pub fn anywhere(range: Interval) -> Self {
+        let mut enclosures = [point(0.0); MAX_DEGREE + 1];
+        enclosures[0] = range;
+        Self::new(enclosures, range, Exact::Anywhere(range), 2)
     }
 
     fn new(
@@ -105,12 +114,6 @@ impl Right {
         self.target
     }
 
-    /// The same with a range in place of the enclosure of E(1): what is proved with [`Right::at_target`] holds for every number in the range.
-    pub fn within(mut self, range: Interval) -> Self {
-        self.target = range;
-        self
-    }
-
     /// The coefficients in double-doubles, with their errors.
     pub fn doubles(&self) -> [Approximate; MAX_DEGREE + 1] {
         match &self.exact {
@@ -119,6 +122,10 @@ impl Right {
                 let coefficient = coefficients.get(k).cloned().unwrap_or_else(Real::zero);
                 divided(coefficient, unit).double()
             }),
+            Exact::Anywhere(range) => {
+                let zero = (DoubleDouble::default(), 0.0);
+                array(|k| if k == 0 { ball(*range).double() } else { zero })
+            }
         }
     }
 
@@ -132,7 +139,19 @@ impl Right {
         match &self.exact {
             Exact::HalfSquare(length) => length.target_half_square(),
             Exact::Polynomial(coefficients, unit) => divided(sum(coefficients), unit),
+            Exact::Anywhere(range) => ball(*range),
         }
+    }
+}
+
+/// A bounded range as a ball.
+fn ball(range: Interval) -> Ball {
+    let ends = [range.inf(), range.sup()].map(|end| Rational::from_float(end).expect("a number"));
+    let [low, high] = &ends;
+    let half = Rational::new(1.into(), 2.into());
+    Ball {
+        middle: (low + high) * &half,
+        radius: (high - low) * &half,
     }
 }
 
@@ -166,5 +185,18 @@ mod tests {
         assert!(right.at_target().contains(right.double_at_target().0.hi));
         assert!((right.at_target().mid() - value(1.0)).abs() < 1e-14);
         assert_eq!(Right::polynomial(&[Real::whole(3)], 1.0).degree, 2);
+    }
+
+    /// Two numbers of one range are not known to be the same, as equations with one right-hand side would have them.
+    #[test]
+    fn what_is_anywhere_is_not_the_same_as_another() {
+        let range = point(0.75).convex_hull(point(1.5));
+        let [one, other] = [Right::anywhere(range), Right::anywhere(range)];
+        assert_eq!(one.at_target(), range);
+        assert_ne!(one.ball_at_target(), other.ball_at_target());
+        let (near, radius) = one.double_at_target();
+        assert!(near.hi - radius <= 0.75 && near.hi + radius >= 1.5);
+        let exact = [0, 1].map(|_| Right::anywhere(point(0.75)).ball_at_target());
+        assert_eq!(exact[0], exact[1]);
     }
 }

@@ -142,13 +142,7 @@ fn searched(
     result.method = Method::Coordinates;
     result.driving = homotopy.equations;
     result.symmetry = crate::constraint::symmetry(problem);
-    let directed = homotopy.directed(|_| true);
-    let is_fixed = |object| problem.fixed_directions().any(|fixed| fixed == object);
-    result.both_ways = directed
-        .into_iter()
-        .filter(|&object| !is_fixed(object))
-        .map(|object| problem.objects[object].name.clone())
-        .collect();
+    result.both_ways = both_ways(problem, homotopy);
     if reason.is_some() {
         return Ok(result);
     }
@@ -270,6 +264,16 @@ fn searched(
     result.seconds = begin.elapsed().as_secs_f64();
     result.tell_what_is_left(run);
     Ok(result)
+}
+
+/// The lines and planes of their own, by name, whose two directions constraints tell apart.
+fn both_ways(problem: &Problem, homotopy: &Homotopy) -> Vec<String> {
+    let is_fixed = |object: &usize| problem.fixed_directions().any(|fixed| fixed == *object);
+    let directed = homotopy.directed(|_| true).into_iter();
+    let names = directed.filter(|object| !is_fixed(object));
+    names
+        .map(|object| problem.objects[object].name.clone())
+        .collect()
 }
 
 /// The blocks of a system, each of which needs only blocks before it.

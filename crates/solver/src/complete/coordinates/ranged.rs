@@ -12,7 +12,7 @@
 use super::poses::Poses;
 use super::search::{About, Block, Found, Run, leave, ranges};
 use super::system::System;
-use super::{Cut, Watched, contract, symmetry};
+use super::{Cut, Watched, both_ways, contract, symmetry};
 use crate::complete::{Options, Part, Why};
 use crate::interval::{Interval, ZERO, upper_half};
 use crate::order::InOrder;
@@ -26,6 +26,8 @@ use std::time::Instant;
 pub struct Ranged {
     /// For each figure the ranges of all unknowns, in the homotopy's unit: for every choice there is exactly one in them.
     pub figures: Vec<Vec<Interval>>,
+    /// Lines and planes of their own, by name, whose two directions are told apart: figures with either are counted.
+    pub both_ways: Vec<String>,
     /// What stays undecided. If nothing does, no choice has another figure, up to the symmetries of the problem.
     pub undecided: Vec<Part>,
 }
@@ -96,8 +98,9 @@ pub fn ranged(problem: &Problem, homotopy: &Homotopy, options: &Options) -> Resu
         block.search_all(&about, Vec::new(), x, &run)
     });
     let mut ranged = Ranged {
-        figures: Vec::new(),
+        both_ways: both_ways(problem, homotopy),
         undecided: found.undecided,
+        ..Ranged::default()
     };
     for zero in &found.zeros {
         let mut x = vec![ZERO; m + 2];
