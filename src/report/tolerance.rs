@@ -16,18 +16,21 @@ use std::fmt::Write;
 /// What is proved, a sentence.
 pub fn tolerances_in_words(problem: &Problem, study: &Study) -> String {
     format!(
-        "{}: for every choice of {} within its limits, all of them together, there is exactly one figure that the one drawn becomes, proved{}",
-        problem.name,
-        dimensions(&study.limits),
+        "{}, there is exactly one figure that the one drawn becomes, proved{}",
+        for_every_choice(problem, &study.limits),
         study.account.clause_behind()
     )
 }
 
-/// The dimensions that have limits, counted.
-fn dimensions(limits: &[Limits]) -> String {
+/// Of which choices something is said.
+fn for_every_choice(problem: &Problem, limits: &[Limits]) -> String {
+    let name = &problem.name;
     match limits.len() {
-        1 => "the dimension".to_owned(),
-        n => format!("the {}", counted(n, "dimension")),
+        1 => format!("{name}: for every choice of the dimension within its limits"),
+        n => format!(
+            "{name}: for every choice of the {} within their limits, all of them together",
+            counted(n, "dimension")
+        ),
     }
 }
 
@@ -70,14 +73,8 @@ pub fn tolerance_set_in_words(problem: &Problem, set: &Set) -> String {
         ),
     };
     format!(
-        "{}: for every choice of {} within {} limits, all of them together, {figures}{}",
-        problem.name,
-        dimensions(&set.limits),
-        if set.limits.len() == 1 {
-            "its"
-        } else {
-            "their"
-        },
+        "{}, {figures}{}",
+        for_every_choice(problem, &set.limits),
         set.account.clause_behind()
     )
 }

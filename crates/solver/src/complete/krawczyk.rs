@@ -53,7 +53,8 @@ pub fn alone([q0, kappa, step]: [f64; 3], most: f64) -> Option<[f64; 2]> {
 
 /// The same where F is anywhere in a range, for every F there: the zero's box may be nearly as wide as where it is alone.
 ///
-/// With q = q₀ + κ r and ‖Y F(x)‖/(1 − q) ≤ r the ball of radius r is mapped into itself, contracting; r is sought from ‖Y F(x)‖ up.
+/// As F is quadratic, w − Y F(x + w) = −Y F(x) + (I − Y J(x + w/2)) w: with q = q₀ + κ r/2 and ‖Y F(x)‖/(1 − q) ≤ r the ball of radius r is mapped into
+/// itself, so that it holds a zero, and as r is less than how far around x there is at most one, exactly one. r is sought from ‖Y F(x)‖ up.
 pub fn alone_within([q0, kappa, step]: [f64; 3], most: f64) -> Option<[f64; 2]> {
     const ROUNDS: usize = 20;
     let [_, alone] = alone([q0, kappa, 0.0], most)?;
@@ -61,7 +62,7 @@ pub fn alone_within([q0, kappa, step]: [f64; 3], most: f64) -> Option<[f64; 2]> 
     for _ in 0..ROUNDS {
         // Made wider, so that rounds come to an end.
         let wide = round_up(1.01 * radius, 2);
-        let q = round_up(q0 + kappa * wide, 4);
+        let q = round_up(q0 + 0.5 * kappa * wide, 4);
         if !(q < 1.0 && wide < alone) {
             return None;
         }

@@ -47,8 +47,8 @@ pub(crate) struct Within {
     missed: Vec<Interval>,
 }
 
-/// Krawczyk's test is tried with so many radii, each what the one before came to.
-const ROUNDS: usize = 12;
+/// The test is tried with so many radii, each what the one before came to.
+const ROUNDS: usize = 25;
 
 impl Limited {
     /// Takes the sketch of a checked problem for the figure, as [`super::Session`] does.
@@ -135,6 +135,9 @@ impl Limited {
 
     /// Proves that for every choice of values within the limits there is exactly one figure near the one with the dimensions as they are given,
     /// which these lead to. `None`: that is not proved.
+    ///
+    /// The equations are quadratic, so that ξ − Y F(ξ) = x − Y F(x) + (I − Y J((ξ + x)/2)) (ξ − x) exactly, and what maps a box X around x into its
+    /// inside needs J between x and X alone. Of two zeros in X, F(ξ) − F(η) = J((ξ + η)/2) (ξ − η): with Y J regular all over X there is one.
     pub fn prove(self) -> Option<Within> {
         let (homotopy, rights) = (self.whole.homotopy(), &self.rights);
         let centre = self.whole.first().centre.clone();
@@ -161,30 +164,34 @@ impl Limited {
             all.map(|(x, c)| 1.1 * x.mag() + f64::EPSILON * (1.0 + c.abs()))
                 .collect()
         };
+        // I − Y J over a part of the box of these radii.
+        let defect = |radius: &[f64], part: f64| -> Vec<Vec<Interval>> {
+            let near = |i: usize| at(i) + point(part) * hull(-radius[i], radius[i]);
+            let jacobian: Vec<Vec<Interval>> = (0..m).map(|e| homotopy.slopes(e, near)).collect();
+            let entry = |i: usize, j: usize| {
+                let pairs = row(i).iter().zip(&jacobian);
+                let product = sum(pairs.map(|(&y, row)| point(y) * row[j]));
+                point(if i == j { 1.0 } else { 0.0 }) - product
+            };
+            let line = |i: usize| (0..m).map(|j| entry(i, j)).collect();
+            (0..m).map(line).collect()
+        };
         let mut radius = inflated(&linear);
         let mut proved = None;
         for _ in 0..ROUNDS {
-            let near = |i: usize| at(i) + hull(-radius[i], radius[i]);
-            let jacobian: Vec<Vec<Interval>> = (0..m).map(|e| homotopy.slopes(e, near)).collect();
-            // (I − Y J(X)) (X − x).
-            let rest: Vec<Interval> = (0..m)
-                .map(|i| {
-                    sum((0..m).map(|j| {
-                        let product = sum(row(i)
-                            .iter()
-                            .zip(&jacobian)
-                            .map(|(&y, row)| point(y) * row[j]));
-                        let one = point(if i == j { 1.0 } else { 0.0 });
-                        (one - product) * hull(-radius[j], radius[j])
-                    }))
-                })
-                .collect();
+            let rest = defect(&radius, 0.5).into_iter().map(|line| {
+                let pairs = line.into_iter().zip(&radius);
+                sum(pairs.map(|(x, &r)| x * hull(-r, r)))
+            });
+            let rest: Vec<Interval> = rest.collect();
             let image: Vec<Interval> = linear.iter().zip(&rest).map(|(a, b)| *a + *b).collect();
             if image.iter().any(|x| !x.mag().is_finite()) {
                 break;
             }
             if image.iter().zip(&radius).all(|(x, r)| x.mag() < *r) {
-                proved = Some((image, rest));
+                // Y J is regular between any two places of the box.
+                let is_alone = contracts(&defect(&radius, 1.0), &radius);
+                proved = is_alone.then_some((image, rest));
                 break;
             }
             // What is within its radius is not made wider: others grow with it.
@@ -323,6 +330,22 @@ fn rights(homotopy: &Homotopy) -> Vec<Interval> {
         .iter()
         .map(|right| right.at_target())
         .collect()
+}
+
+/// Whether the norm of a matrix of intervals is less than 1 in some norm max |xᵢ| / sᵢ: one is sought from `first` on, as s = first + |D| s.
+fn contracts(matrix: &[Vec<Interval>], first: &[f64]) -> bool {
+    let image = |s: &[f64], i: usize| {
+        let pairs = matrix[i].iter().zip(s);
+        sum(pairs.map(|(x, &s)| x.abs() * point(s))).sup()
+    };
+    let mut s = first.to_vec();
+    for _ in 0..ROUNDS {
+        if (0..s.len()).all(|i| image(&s, i) < s[i]) {
+            return true;
+        }
+        s = (0..s.len()).map(|i| first[i] + image(&s, i)).collect();
+    }
+    false
 }
 
 fn sum(terms: impl Iterator<Item = Interval>) -> Interval {

@@ -45,7 +45,7 @@ use super::store::{Keep, Store};
 use super::targets::Targets;
 use super::{Complete, Constructed, Options, Part, Status, Unserved, Why, emptiness};
 use crate::blocks::{Block as Cut, Blocks, LeftOut};
-use crate::certificate::cover::coordinates::{Body, Half};
+use crate::certificate::cover::coordinates::{Body, Empty, Half};
 use crate::interval::{Interval, ZERO, hull, point, upper_half};
 use crate::order::InOrder;
 use crate::places::Each as _;
@@ -155,26 +155,12 @@ fn searched(
             problem.points.len(),
         ));
     }
-    let m = system.unknowns;
-    let mut x = vec![Interval::ENTIRE; m + 1];
-    x[m] = ZERO;
     let blocks = blocks(&system);
     let halves = symmetry::halves(problem, (homotopy, &signs), &blocks);
     let pivots: Vec<usize> = halves.iter().map(|half| half.unknown).collect();
-    for i in pivots.iter().copied().chain(homotopy.positive_unknowns()) {
-        x[i] = upper_half();
-    }
-    for &(i, negative) in &signs {
-        x[i] = if negative {
-            -upper_half()
-        } else {
-            upper_half()
-        };
-    }
-    let mut is_free = vec![true; m + 1];
-    is_free[m] = false;
-    let rows: Vec<_> = system.rows.iter().collect();
-    let space = contract(&rows, &is_free, &mut x);
+    let positive = pivots.iter().copied().chain(homotopy.positive_unknowns());
+    let signed = positive.map(|i| (i, false)).chain(signs.iter().copied());
+    let (x, space) = space(&system, &signed.collect::<Vec<_>>());
     let kept = match store {
         Some((keep, store)) => Some(Kept::new(store, keep, (problem, &x), run.stop)?),
         None => None,
@@ -264,6 +250,24 @@ fn searched(
     result.seconds = begin.elapsed().as_secs_f64();
     result.tell_what_is_left(run);
     Ok(result)
+}
+
+/// The ranges of all unknowns, and the number 0, in which figures are searched that have these signs: an unknown, and whether it is negative.
+fn space(system: &System, signed: &[(usize, bool)]) -> (Vec<Interval>, Result<(), Empty>) {
+    let m = system.unknowns;
+    let mut x = vec![Interval::ENTIRE; m + 1];
+    x[m] = ZERO;
+    for &(i, is_negative) in signed {
+        x[i] = match is_negative {
+            true => -upper_half(),
+            false => upper_half(),
+        };
+    }
+    let mut is_free = vec![true; m + 1];
+    is_free[m] = false;
+    let rows: Vec<_> = system.rows.iter().collect();
+    let space = contract(&rows, &is_free, &mut x);
+    (x, space)
 }
 
 /// The lines and planes of their own, by name, whose two directions constraints tell apart.

@@ -9,12 +9,11 @@
 //! exactly one zero with that choice, and then in that zero's box. What is listed has pivots greater than 0 all over its box, so that no other image of the
 //! figure is met; and any two listed differ all over their boxes in some unknown.
 
-use super::poses::Poses;
 use super::search::{About, Block, Found, Run, leave, ranges};
 use super::system::System;
-use super::{Cut, Watched, both_ways, contract, symmetry};
+use super::{Cut, Watched, both_ways, space, symmetry};
 use crate::complete::{Options, Part, Why};
-use crate::interval::{Interval, ZERO, upper_half};
+use crate::interval::{Interval, ZERO};
 use crate::order::InOrder;
 use crate::problem::Problem;
 use crate::system::Homotopy;
@@ -54,24 +53,12 @@ pub fn ranged(problem: &Problem, homotopy: &Homotopy, options: &Options) -> Resu
     let halves = symmetry::halves(problem, (homotopy, &signs), &blocks);
     let [all] = &blocks;
     let m = system.unknowns;
-    let mut x = vec![Interval::ENTIRE; m + 1];
-    x[m] = ZERO;
-    // What is greater than 0 in what is listed.
-    let pivots = halves.iter().map(|half| (half.unknown, false));
-    let signed: Vec<(usize, bool)> = pivots.chain(signs).collect();
-    for i in homotopy.positive_unknowns() {
-        x[i] = upper_half();
-    }
-    for &(i, is_negative) in &signed {
-        x[i] = match is_negative {
-            true => -upper_half(),
-            false => upper_half(),
-        };
-    }
-    let mut is_free = vec![true; m + 1];
-    is_free[m] = false;
-    let rows: Vec<_> = system.rows.iter().collect();
-    if contract(&rows, &is_free, &mut x).is_err() {
+    // What has a sign all over what is listed.
+    let positive = homotopy.positive_unknowns().into_iter();
+    let positive = positive.chain(halves.iter().map(|half| half.unknown));
+    let signed: Vec<(usize, bool)> = positive.map(|i| (i, false)).chain(signs).collect();
+    let (mut x, space) = space(&system, &signed);
+    if space.is_err() {
         return Ok(Ranged::default());
     }
     let stop = AtomicBool::new(false);
@@ -84,10 +71,6 @@ pub fn ranged(problem: &Problem, homotopy: &Homotopy, options: &Options) -> Resu
     };
     let block = Block::new(&system, &all.equations, &all.unknowns, |u| u == m);
     let found = options.watched(&watched, begin, || {
-        if let Some(poses) = Poses::of(problem, homotopy, all, &x) {
-            return poses.search(&block, &x, &run);
-        }
-        let mut x = x.clone();
         if block.bound(&mut x).is_err() {
             return Found::default();
         }
@@ -116,9 +99,7 @@ pub fn ranged(problem: &Problem, homotopy: &Homotopy, options: &Options) -> Resu
 impl Ranged {
     /// Lists the box of a zero, if it is a figure for every choice. `signed`: unknowns that are positive in what is listed, or negative.
     fn add(&mut self, homotopy: &Homotopy, signed: &[(usize, bool)], x: Vec<Interval>) {
-        let positive = homotopy.positive_unknowns();
-        let positive = positive.into_iter().map(|i| (i, false));
-        let mut signed = signed.iter().copied().chain(positive);
+        let mut signed = signed.iter().copied();
         let seen = |(i, is_negative): (usize, bool)| if is_negative { -x[i] } else { x[i] };
         // No figure, or an image of one that is met elsewhere.
         if signed.clone().any(|sign| seen(sign).sup() < 0.0) {
