@@ -94,7 +94,7 @@ pub fn tolerance_set_to_table(problem: &Problem, set: &Set) -> String {
         );
     }
     if !set.undecided.is_empty() {
-        out += "With narrower limits more is decided.\n";
+        out += "Narrower limits may decide more.\n";
     }
     for (number, figure) in (1..).zip(&set.figures) {
         out += &match &figure.study {
@@ -233,7 +233,8 @@ pub(super) fn rounded(x: f64, to: impl Fn(f64) -> f64) -> String {
     } else if to(0.5) < 0.5 && shown > x {
         shown -= step;
     }
-    format!("{shown:.*}", places as usize)
+    // Not −0.
+    format!("{:.*}", places as usize, shown + 0.0)
 }
 
 /// The study as a value in memory, as `krawl tolerance --json` writes it (docs/using/cad.md).

@@ -395,3 +395,39 @@ fn right_angles_with_limits_are_right_for_some_choices_alone() {
         }
     }
 }
+
+/// Four lines that are equally inclined stay so if any two of them run the other way; one is fixed as it runs.
+#[test]
+fn lines_that_run_the_other_way_together_are_one_figure() {
+    let text = r#"
+        name = "inclined"
+        dimension = 2
+        [points]
+        o = [0, 0]
+        a = [0, 1]
+        b = [4, 3]
+        c = [1, 5]
+        d = [5, 6]
+        e = [7, 1]
+        f = [10, 0]
+        g = [14, 0]
+        h = [11, 2]
+        [lines]
+        l = { point = [0, 0], direction = [1, 0] }
+        k = { point = [0, 1], direction = [2, 1] }
+        m = { point = [1, 5], direction = [4, 1] }
+        n = { point = [7, 1], direction = [1.1, 1] }
+        [constraints]
+        fixed = ["o", "a", "b", "c", "d", "e", "f", "g", "l"]
+        on = [["a", "k"], ["b", "k"], ["c", "m"], ["d", "m"], ["e", "n"]]
+        equal_angles = [["l", "k", "m", "n"]]
+        distances = [["f", "h", 2.2], ["g", "h", 3.6]]
+        "#;
+    let problem = Problem::parse(text, "inclined.toml").unwrap();
+    let set = within(&problem, 0.01, &[]).unwrap();
+    let found = all(&problem, &complete::Options::default()).unwrap();
+    assert_eq!(found.status, Status::Complete);
+    assert_eq!(found.solutions.len(), 4);
+    assert!(set.undecided.is_empty(), "{set:?}");
+    assert_eq!(set.figures.len(), 4);
+}

@@ -114,7 +114,6 @@ impl Limited {
         for (right, &range) in homotopy.rights.iter_mut().zip(&self.rights) {
             *right = Right::anywhere(range);
         }
-        homotopy.reduce_twins();
         homotopy
     }
 
@@ -196,6 +195,9 @@ impl Limited {
             }
             // What is within its radius is not made wider: others grow with it.
             radius = inflated(&image);
+            if !radius.iter().all(|r| r.is_finite()) {
+                break;
+            }
         }
         // Beyond, equations have zeros that are no figures.
         let proved = proved.filter(|(around, _)| homotopy.is_proper_over(|i| at(i) + around[i]));

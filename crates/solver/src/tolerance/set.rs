@@ -38,6 +38,7 @@ const STANDS: f64 = 1e-12;
 const NOT_BOUNDED: &str =
     "it is there for every choice, but bounds are proved with narrower limits only";
 const OTHERWISE: &str = "it is there for every choice, but drawn as it is it has other equations";
+const ELSEWHERE: &str = "it is there for every choice, but drawn as it is the figure that is followed is not certainly in its box";
 
 /// All figures that meet dimensions within limits.
 #[derive(Debug)]
@@ -106,10 +107,11 @@ pub fn study_all(
             let drawn = drawn(problem, places, &homotopy.locate(&points, at))?;
             let own = open(&drawn, control)?;
             // What it becomes with each choice is the figure of the box, as it is that with one of them.
-            let is_it = own.is_same(&limited)
-                && (0..homotopy.equations).all(|i| own.nominal(i).subset(x[i]));
-            if !is_it {
+            if !own.is_same(&limited) {
                 return Err(OTHERWISE.to_owned());
+            }
+            if !(0..homotopy.equations).all(|i| own.nominal(i).subset(x[i])) {
+                return Err(ELSEWHERE.to_owned());
             }
             let within = own.prove().ok_or(NOT_BOUNDED)?;
             studied(&drawn, limits, within, &quantities, control)

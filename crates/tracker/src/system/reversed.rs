@@ -19,15 +19,18 @@ impl Homotopy {
     }
 
     /// Keeps, of the changes of sign with which a figure stays as it is and their sums, those with which the equations hold whatever their
-    /// right-hand sides now are: where some of these were 0 and are ranges, fewer do.
+    /// right-hand sides now are (where some of these were 0 and are ranges, fewer do), lengths stay positive, and these unknowns what they are.
     #[doc(hidden)]
-    pub fn reduce_twins(&mut self) {
+    pub fn reduce_twins(&mut self, signed: &[(usize, bool)]) {
+        let mut fixed = self.positive_unknowns();
+        fixed.extend(signed.iter().map(|&(i, _)| i));
         let first = self.gauge.place.len();
         let mut echelon = Echelon::<Residue<2>>::new(self.equations);
         let mut basis = Vec::new();
         for twin in self.twins().unwrap_or_default() {
             let bits = twin.iter().map(|&change| Residue::whole(change.into()));
-            if self.keeps(&twin) && echelon.take(&mut bits.collect::<Vec<_>>()) {
+            let stays = !fixed.iter().any(|&i| twin[i]) && self.keeps(&twin);
+            if stays && echelon.take(&mut bits.collect::<Vec<_>>()) {
                 basis.push(twin[first..].to_vec());
             }
         }

@@ -41,6 +41,9 @@ pub fn ranged(problem: &Problem, homotopy: &Homotopy, options: &Options) -> Resu
         let name = &problem.objects[object].name;
         format!("in which direction {name} is fixed is not certain: name two fixed points of it")
     })?;
+    let mut homotopy = homotopy.clone();
+    homotopy.reduce_twins(&signs);
+    let homotopy = &homotopy;
     let mut system = System::new(homotopy);
     system.has_ranges = true;
     // All of them together: of a part by itself it is not known which choice the others have made.
@@ -56,7 +59,10 @@ pub fn ranged(problem: &Problem, homotopy: &Homotopy, options: &Options) -> Resu
     // What has a sign all over what is listed.
     let positive = homotopy.positive_unknowns().into_iter();
     let positive = positive.chain(halves.iter().map(|half| half.unknown));
-    let signed: Vec<(usize, bool)> = positive.map(|i| (i, false)).chain(signs).collect();
+    let signed: Vec<(usize, bool)> = positive
+        .map(|i| (i, false))
+        .chain(signs.iter().copied())
+        .collect();
     let (mut x, space) = space(&system, &signed);
     if space.is_err() {
         return Ok(Ranged::default());
@@ -85,6 +91,11 @@ pub fn ranged(problem: &Problem, homotopy: &Homotopy, options: &Options) -> Resu
         undecided: found.undecided,
         ..Ranged::default()
     };
+    if !symmetry::keeps_axes(problem, homotopy, &signs) && !found.zeros.is_empty() {
+        // Figures are told apart for some choices by what is the same for others.
+        leave(&mut ranged.undecided, Why::Apart, 1, 0.0);
+        return Ok(ranged);
+    }
     for zero in &found.zeros {
         let mut x = vec![ZERO; m + 2];
         for (&u, range) in all.unknowns.iter().zip(ranges(zero)) {

@@ -19,16 +19,13 @@ pub fn halves(
 ) -> Vec<Half> {
     let allowed = symmetry(problem);
     let (d, twins) = (homotopy.dimension, homotopy.tail.twins.len());
-    let reversed: Vec<Vec<usize>> = match allowed {
-        Symmetry::Identity => Vec::new(),
-        Symmetry::Motions => (1..d).map(|axis| vec![axis - 1, axis]).collect(),
-        Symmetry::Isometries => (0..d).map(|axis| vec![axis]).collect(),
-    };
     let of = |axes: Vec<usize>, twins: Vec<usize>| {
         let by = Change { axes, twins };
         Some((changes(homotopy, (allowed, signs), &by)?, by))
     };
-    let of_axes = reversed.into_iter().filter_map(|axes| of(axes, Vec::new()));
+    let of_axes = reversals(allowed, d)
+        .into_iter()
+        .filter_map(|axes| of(axes, Vec::new()));
     let of_twins = (0..twins).filter_map(|k| of(Vec::new(), vec![k]));
     let mut generators: Vec<(Vec<bool>, Change)> = of_axes.chain(of_twins).collect();
     let mut pivots: Vec<usize> = Vec::new();
@@ -57,6 +54,25 @@ pub fn halves(
     halves
         .map(|(unknown, (_, by))| Half { unknown, by })
         .collect()
+}
+
+/// Which axes are reversed, one list after the other, in what figures are counted up to.
+fn reversals(allowed: Symmetry, dimension: usize) -> Vec<Vec<usize>> {
+    match allowed {
+        Symmetry::Identity => Vec::new(),
+        Symmetry::Motions => (1..dimension).map(|axis| vec![axis - 1, axis]).collect(),
+        Symmetry::Isometries => (0..dimension).map(|axis| vec![axis]).collect(),
+    }
+}
+
+/// Whether each of these reversals keeps the equations and these signs.
+pub fn keeps_axes(problem: &Problem, homotopy: &Homotopy, signs: &[(usize, bool)]) -> bool {
+    let allowed = symmetry(problem);
+    let mut all = reversals(allowed, homotopy.dimension).into_iter();
+    all.all(|axes| {
+        let twins = Vec::new();
+        changes(homotopy, (allowed, signs), &Change { axes, twins }).is_some()
+    })
 }
 
 /// Adds places to others modulo 2: what both have is in neither.
