@@ -8,7 +8,7 @@ use super::sweep::quoted;
 use crate::complete::Why;
 use crate::edit::Limits;
 use crate::order::InOrder;
-use crate::problem::{Problem, counted};
+use crate::problem::{Problem, counted, either};
 use crate::tolerance::{Measured, Set, Study};
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -67,7 +67,7 @@ pub fn tolerance_set_in_words(problem: &Problem, set: &Set) -> String {
         0 => "it is not decided which figures there are".to_owned(),
         n => format!(
             "there {} {} {}{up_to}, proved",
-            if n == 1 { "is" } else { "are" },
+            either(n, "is", "are"),
             if is_all { "exactly" } else { "at least" },
             counted(n, "figure")
         ),

@@ -216,13 +216,6 @@ impl fmt::Display for Decimal {
     }
 }
 
-impl Decimal {
-    /// The shortest decimal that is read as a float; `None`: it is no number.
-    pub fn shortest(x: f64) -> Option<Self> {
-        format!("{x:e}").parse().ok()
-    }
-}
-
 impl From<i32> for Decimal {
     fn from(value: i32) -> Self {
         Decimal {

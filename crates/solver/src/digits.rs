@@ -171,7 +171,7 @@ fn to_all_digits(
 
 /// The middle of a range, as it is written.
 pub(crate) fn middle(x: Interval) -> Decimal {
-    Decimal::shortest(x.mid()).unwrap_or(Decimal::from(0))
+    Decimal::try_from(x.mid()).unwrap_or(Decimal::from(0))
 }
 
 /// The problem drawn as a solution, for where its unknowns are about.

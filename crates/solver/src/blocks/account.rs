@@ -142,6 +142,17 @@ impl Account {
         }
     }
 
+    /// The same of figures whose dimensions have other numbers: what was left out as it follows from the others with the numbers given need not follow
+    /// then.
+    pub fn with_other_numbers(mut self) -> Self {
+        for one in &mut self.left_out {
+            if one.verdict == Verdict::Follows {
+                (one.why, one.verdict) = (Why::NothingNew, Verdict::NotLookedAt);
+            }
+        }
+        self
+    }
+
     /// The same claim made of other figures, too: with the worse verdict of each constraint, and all that is held in either.
     pub fn join(&mut self, other: &Account) {
         for one in &other.left_out {
@@ -499,6 +510,11 @@ mod tests {
             account.clause(),
             "in the 18 equations used, with x of B held where it is; a-b and c-d were left out and are met within 3e-12, \
              proved; e was left out and follows from the others, proved"
+        );
+        let other = account.clone().with_other_numbers().clause();
+        assert!(
+            other.ends_with("proved; e was left out, and nothing is proved of it"),
+            "{other}"
         );
         account.leave_out("a-b".to_owned(), Verdict::Missed { by: 0.5 });
         assert!(account.left_out[0].verdict.is_missed());

@@ -402,7 +402,7 @@ fn follow(
 fn driven(problem: &Problem, ends: [usize; 2]) -> (Problem, Setting) {
     let mut out = problem.clone();
     let length = drawn(problem, ends);
-    let decimal = |x: f64| Decimal::shortest(x).unwrap_or(Decimal::from(1));
+    let decimal = |x: f64| Decimal::try_from(x).unwrap_or(Decimal::from(1));
     let index = out.distances.len();
     out.distances.push(Distance {
         points: ends,

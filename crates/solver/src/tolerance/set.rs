@@ -32,7 +32,8 @@ use crate::interval::{Interval, point};
 use crate::problem::Problem;
 use crate::track::{Control, Options};
 
-/// A coordinate known as well as this, in units of length, is where it is drawn, if that is there.
+/// A coordinate known as well as this, in units of length, is where it is drawn, if that is there. No proof rests on it: whether the figure so drawn has
+/// the same equations is looked at.
 const STANDS: f64 = 1e-12;
 
 const NOT_BOUNDED: &str =
