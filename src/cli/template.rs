@@ -4,7 +4,7 @@ use super::input;
 use super::output::{self, Destination};
 use super::{BAD_INPUT, CLOSED, INCOMPLETE, interrupt};
 use krawl::complex::{Effort, Fibre, Filling, Lowered, Template, Ways, fill, lower, lower_for};
-use krawl::problem::Problem;
+use krawl::problem::{Problem, counted};
 use krawl::report::ProgressLine;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -13,7 +13,8 @@ use std::time::Instant;
 ///
 /// A random complex figure with the same constraints has dimensions of its own. Loops of complex dimensions make other
 /// figures with the same dimensions of it, every path proved (unless --float), until there are as many as a proved
-/// bound allows or no loop finds another one. `krawl complex FILE --template T` then takes them to any dimensions.
+/// bound allows or no loop finds another one. Solutions of equations without points are first led there from powers of the unknowns,
+/// as many as the product of the degrees, in floats; each is proved. `krawl complex FILE --template T` then takes all to any dimensions.
 #[derive(clap::Args)]
 #[command(after_long_help = "\
 Examples:
@@ -204,19 +205,27 @@ fn summary(problem: &Problem, lowered: &Lowered, fibre: &Fibre, seconds: f64) ->
         ),
     };
     let mut text = format!("{}: {full}\n", problem.name);
+    if let Some(led) = fibre.led {
+        text += &format!(
+            "{} from powers of the unknowns in floats, {} of them to infinity\n",
+            counted(led.paths, "path"),
+            led.infinite
+        );
+    }
     let Effort {
         paths,
         tubes,
         steps,
         ..
     } = fibre.effort;
-    let took = match steps {
-        0 => format!("{tubes} tubes"),
-        _ => format!("{steps} steps in floats"),
-    };
+    let took = [(tubes, "tube", ""), (steps, "step", " in floats")];
+    let took = took.into_iter().filter(|(count, ..)| *count > 0);
+    let took: String = took
+        .map(|(count, what, how)| format!("{}{how}, ", counted(count, what)))
+        .collect();
     text += &format!(
-        "{} ways between random instances, {paths} paths, {took}, {seconds:.2} s\n",
-        fibre.ways
+        "{} between random instances, {paths} paths, {took}{seconds:.2} s\n",
+        counted(fibre.ways, "way")
     );
     if let (failed, Some(reason)) = &fibre.failed {
         text += &format!("{failed} paths were given up, the last because {reason}\n");

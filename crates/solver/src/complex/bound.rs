@@ -17,8 +17,8 @@
 //! more isolated figures.
 
 use super::laman;
-use crate::problem::{Atom, Object, Problem, Shape, Terms};
-use std::collections::HashMap;
+use crate::problem::{Atom, Item, Object, Problem, Shape, Terms};
+use std::collections::{HashMap, HashSet};
 
 /// A bound on the number of isolated complex solutions up to rotation.
 #[derive(Debug, Clone, PartialEq)]
@@ -36,34 +36,36 @@ pub struct Bound {
 /// The bound of a problem of unknown numbers and equations of its own: the product of the degrees (Bézout's theorem: so many isolated
 /// zeros at most, each with its multiplicity).
 ///
-/// A quotient in an equation is an unknown with an equation of its own, one degree above that of what is divided by. `None`: there
-/// is anything else in the problem.
+/// A quotient in an equation is an unknown with an equation of its own, one degree above that of what is divided by; an unknown whose
+/// value is given is a coefficient. `None`: there is anything else in the problem.
 pub fn of_equations(problem: &Problem) -> Option<Bound> {
-    let degree = |terms: &Terms| terms.keys().map(Vec::len).max().unwrap_or(0) as u128;
+    let values = problem.constraints.iter().filter(|c| c.kind == "values");
+    let given: HashSet<Item> = values.flat_map(|c| c.items.iter().copied()).collect();
     let of_numbers = |object: &Object| matches!(object.shape, Shape::Number { .. });
     if !problem.points.is_empty() || !problem.objects.iter().all(of_numbers) {
         return None;
     }
     let mut count: u128 = 1;
-    let mut quotients: Vec<&Terms> = Vec::new();
     for constraint in &problem.constraints {
         let formula = match &constraint.formula {
             Some(formula) => formula,
             None if constraint.kind == "values" => continue,
             None => return None,
         };
+        let is_given = |atom: usize| matches!(formula.atoms[atom], Atom::Number(of) if given.contains(&Item::Object(of)));
+        let degree = |terms: &Terms| {
+            let open = |term: &Vec<usize>| term.iter().filter(|&&atom| !is_given(atom)).count();
+            terms.keys().map(open).max().unwrap_or(0) as u128
+        };
         count = count.checked_mul(degree(&formula.zero))?;
         for atom in &formula.atoms {
             match atom {
-                Atom::Inverse(of) => quotients.push(of),
+                Atom::Inverse(of) => count = count.checked_mul(degree(of) + 1)?,
                 Atom::Number(_) => {}
                 _ => return None,
             }
         }
     }
-    let count = quotients
-        .into_iter()
-        .try_fold(count, |count, of| count.checked_mul(degree(of) + 1))?;
     Some(Bound {
         count,
         source: "Bézout's bound, the product of the degrees of the equations".to_owned(),

@@ -176,7 +176,7 @@ impl EndProver {
         let half = Rational::new(1.into(), 2.into());
         let (mut values, mut errors) = (Vec::new(), Vec::new());
         for (e, (wanted, radius)) in self.wanted.iter().enumerate() {
-            let twice = self.system.evaluate(e, &at);
+            let twice = self.system.evaluate(e, |u| at[u].clone());
             let wanted = exactly(wanted).ok_or("a dimension is no number")?;
             let (re, a) = DoubleDouble::near(&(twice.re * &half - wanted.re));
             let (im, b) = DoubleDouble::near(&(twice.im * &half - wanted.im));

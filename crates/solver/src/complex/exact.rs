@@ -149,6 +149,17 @@ impl Random {
         }
     }
 
+    /// A complex number like [`Random::complex`] with an absolute value of at least ½.
+    pub fn apart_from_zero(&mut self) -> Exact {
+        let quarter = Rational::new(1.into(), 4.into());
+        loop {
+            let drawn = self.complex();
+            if &drawn.re * &drawn.re + &drawn.im * &drawn.im >= quarter {
+                return drawn;
+            }
+        }
+    }
+
     /// A real number between −¼ and ¼.
     pub fn nearly_whole(&mut self) -> Exact {
         Exact::real(self.ratio() / Rational::from_integer(4.into()))

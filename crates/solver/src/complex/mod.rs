@@ -49,6 +49,7 @@ mod solve;
 mod start;
 pub mod system;
 mod template;
+mod total_degree;
 mod unknowns;
 mod vector;
 
@@ -66,3 +67,4 @@ pub use solve::{Nature, Solutions, Status, solve};
 pub use start::{StartFigure, draw};
 pub use system::{Signs, System};
 pub use template::{Template, TemplateError};
+pub use total_degree::Led;

@@ -14,6 +14,7 @@ use super::follow::{Effort, Follower, PathEnd, Ways, follow_all};
 use super::start;
 use super::system::{Equation, Kind, System, segment};
 use super::template::Template;
+use super::total_degree::{self, Led};
 use crate::interval::DoubleDouble;
 use crate::system::Right;
 
@@ -32,6 +33,8 @@ pub struct Fibre {
     pub effort: Effort,
     /// Paths that were given up, and the last reason.
     pub failed: (usize, Option<String>),
+    /// What came of the paths from the zeros of powers, where there were any.
+    pub led: Option<Led>,
 }
 
 /// Told of the solutions so far, and the effort.
@@ -100,7 +103,15 @@ pub fn fill(system: &System, filling: &Filling) -> Result<Fibre, String> {
         idle: 0,
         effort: Effort::default(),
         failed: (0, None),
+        led: None,
     };
+    if filling.from.is_none() {
+        fibre.led = total_degree::lead(system, &mut fibre, &mut random, &filling.ways);
+    }
+    // All paths came to solutions, or went away.
+    if fibre.led.is_some_and(|led| led.stopped == 0) {
+        return Ok(fibre);
+    }
     let is_full = |solutions: &SolutionSet| filling.enough.is_some_and(|n| solutions.len() >= n);
     while !is_full(&fibre.solutions) && fibre.idle < filling.patience && !filling.ways.is_over() {
         let (other, mut there) = seed(system, &mut random)?;

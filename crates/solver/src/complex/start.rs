@@ -76,7 +76,13 @@ pub fn draw(system: &System, random: &mut Random) -> Option<StartFigure> {
             break;
         };
         let equation = defined[unknown]?;
-        let value = solve(system, equation, unknown, &values)?;
+        let Kind::Fixed(right) = &system.equations[equation].right else {
+            return None;
+        };
+        // What is not known does not stand in the equation.
+        let known = |u: usize| values[u].clone().unwrap_or_else(Exact::zero);
+        let [above, slope] = system.alone(equation, unknown, right.clone(), known);
+        let value = above.over(&slope)?;
         if value.bits() > MOST_BITS {
             return None;
         }
@@ -86,7 +92,7 @@ pub fn draw(system: &System, random: &mut Random) -> Option<StartFigure> {
     let half = Exact::whole(1).over(&Exact::whole(2))?;
     let mut parameters = Vec::with_capacity(n);
     for (e, equation) in system.equations.iter().enumerate() {
-        let value = system.evaluate(e, &values).times(&half);
+        let value = system.evaluate(e, |u| values[u].clone()).times(&half);
         if let Kind::Fixed(wanted) = &equation.right
             && *wanted != value
         {
@@ -128,32 +134,4 @@ fn is_affine(system: &System, equation: usize, unknown: usize) -> bool {
     let terms = system.equations[equation].terms.iter();
     let mut found = terms.map(|term| term.forms().each(stands));
     found.clone().all(|both| both != [true, true]) && found.any(|both| both != [false, false])
-}
-
-/// The value of the unknown that stands alone in an equation, all others being known.
-fn solve(
-    system: &System,
-    equation: usize,
-    unknown: usize,
-    values: &[Option<Exact>],
-) -> Option<Exact> {
-    let at = |x: Exact| -> Vec<Exact> {
-        let known = values.iter().enumerate();
-        known
-            .map(|(u, value)| match value {
-                _ if u == unknown => x.clone(),
-                Some(value) => value.clone(),
-                // It does not stand in this equation.
-                None => Exact::zero(),
-            })
-            .collect()
-    };
-    let at_zero = system.evaluate(equation, &at(Exact::zero()));
-    let slope = system
-        .evaluate(equation, &at(Exact::whole(1)))
-        .minus(&at_zero);
-    let Kind::Fixed(right) = &system.equations[equation].right else {
-        return None;
-    };
-    right.times(&Exact::whole(2)).minus(&at_zero).over(&slope)
 }

@@ -2,7 +2,7 @@
 
 use super::exact::{Exact, Parameter, zero};
 use crate::constraint::{self, Entry, Role, Tail};
-use crate::equations::{Form, Product, sign};
+use crate::equations::{Form, Product, Ring, sign};
 use crate::hexadecimal::hexadecimal;
 use crate::interval::point;
 use crate::system::{Homotopy, Right, Term};
@@ -126,7 +126,7 @@ impl System {
     }
 
     /// Whether an unknown stands in an equation times a number that is not zero, and nowhere else in it.
-    fn stands_alone(&self, equation: usize, unknown: usize) -> bool {
+    pub(super) fn stands_alone(&self, equation: usize, unknown: usize) -> bool {
         let mut slope = 0;
         for term in &self.equations[equation].terms {
             let stands = |form: &Form<Option<usize>>| {
@@ -169,12 +169,30 @@ impl System {
     }
 
     /// Twice the left-hand side of an equation, less the first power of the unit, at a point.
-    pub(super) fn evaluate(&self, equation: usize, at: &[Exact]) -> Exact {
-        let at = |entry: Option<usize>| entry.map_or_else(Exact::zero, |i| at[i].clone());
+    pub(super) fn evaluate<T: Ring>(&self, equation: usize, at: impl Fn(usize) -> T) -> T {
+        let at = |entry: Option<usize>| entry.map_or_else(|| T::whole(0), &at);
         let terms = self.equations[equation].terms.iter();
-        terms.fold(Exact::zero(), |sum, term| {
-            sum + term.value(at) * Exact::whole(term.factor.into())
+        terms.fold(T::whole(0), |sum, term| {
+            sum + term.value(at) * T::whole(term.factor)
         })
+    }
+
+    /// Two numbers whose quotient is the value of an unknown that is multiplied by others only in an equation with this
+    /// right-hand side, all others being known.
+    pub(super) fn alone<T: Ring>(
+        &self,
+        equation: usize,
+        unknown: usize,
+        right: T,
+        known: impl Fn(usize) -> T,
+    ) -> [T; 2] {
+        let at = |x: i32| {
+            let value = |u: usize| if u == unknown { T::whole(x) } else { known(u) };
+            self.evaluate(equation, value)
+        };
+        let at_zero = at(0);
+        let slope = at(1) - at_zero.clone();
+        [right * T::whole(2) - at_zero, slope]
     }
 
     /// The equations of the real and imaginary parts: two real unknowns and equations for each complex one.
