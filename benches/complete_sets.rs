@@ -10,6 +10,8 @@
 //! RealPaver) run beside them where they are installed, on the system that `krawl export` writes.
 
 mod others;
+#[path = "others/shipped.rs"]
+mod shipped;
 
 use krawl::complete::{Complete, Options, Part, all};
 use krawl::problem::Problem;
@@ -77,7 +79,7 @@ fn main() {
         for (name, _) in ROWS {
             println!(
                 "{name:<12} {program}: {}",
-                others::run(program, name, 100.0)
+                shipped::run(program, name, 100.0)
             );
         }
     }
