@@ -91,11 +91,11 @@
 //! - [`edit`]: one dimension changed, the same figure kept, by proof; the limits of dimensions
 //! - [`motion`]: all figures of a linkage that moves in one way, and what is measured of them
 //! - [`certificate`]: proofs on disk, and the checker that proves them again
+//! - [`complex`]: all complex solutions, every path proved
 //! - [`complete`]: all real solutions, proved to be all
 //! - [`digits`]: solutions to many digits
 //! - [`tolerance`]: dimensions within limits, and what they do to a figure
 //! - [`import`]: sketches of SolveSpace and FreeCAD and molecules, in and out
-//! - [`complex`]: all complex solutions, every path proved
 //! - [`explore`]: new sketches from solutions, and their paths
 //! - [`compare`]: all modes and spaces beside each other, timed and judged
 //! - [`report`]: tables, JSON, pictures, progress

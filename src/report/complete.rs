@@ -33,7 +33,8 @@ const LISTED: usize = 24;
 /// ```
 ///
 /// A search over coordinates has `"constructed": {"unknowns": 16, "parameters": 2}` beside these where unknowns were computed step by step from
-/// a few of them, the parameters: of the largest system of equations in which they were.
+/// a few of them, the parameters: of the largest system of equations in which they were. One among complex solutions has their number
+/// as `"complex"`.
 ///
 /// Points are as in the JSON of a run along the path: pairs of bounds in the problem's units, seen from the
 /// reference points.
@@ -95,6 +96,7 @@ impl<'a> Document<'a> {
             seconds_left: result.seconds_left,
             driving: result.driving,
             constructed: result.constructed,
+            complex: result.complex,
             turned: &result.turned,
             plan: names(problem, &result.plan),
         }
@@ -128,6 +130,8 @@ struct Document<'a> {
     driving: usize,
     #[serde(skip_serializing_if = "Option::is_none")]
     constructed: Option<Constructed>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    complex: Option<usize>,
     #[serde(skip_serializing_if = "<[_]>::is_empty")]
     turned: &'a [String],
     plan: Vec<&'a str>,
@@ -310,7 +314,9 @@ fn write_table(out: &mut String, problem: &Problem, result: &Complete) -> std::f
     }
     writeln!(out)?;
     match result.method {
-        Method::Coordinates => writeln!(out, "unknowns            {}", result.driving)?,
+        Method::Coordinates | Method::Complex => {
+            writeln!(out, "unknowns            {}", result.driving)?;
+        }
         _ => writeln!(out, "driving parameters  {}", result.driving)?,
     }
     if let Some(it) = result.constructed {
@@ -319,6 +325,12 @@ fn write_table(out: &mut String, problem: &Problem, result: &Complete) -> std::f
             "constructed         {} step by step, driven by {}",
             counted(it.unknowns, "unknown"),
             counted(it.parameters, "parameter")
+        )?;
+    }
+    if let Some(count) = result.complex {
+        writeln!(
+            out,
+            "complex solutions   {count}, proved: as many as the product of the degrees allows"
         )?;
     }
     if !result.turned.is_empty() {
@@ -477,7 +489,7 @@ fn without_sides(problem: &Problem, result: &Complete) -> String {
         .map_or(result.count, |tested| tested.found);
     let space = match result.method {
         Method::Plan => "the parameter space",
-        Method::Coordinates => "the space of coordinates",
+        Method::Coordinates | Method::Complex => "the space of coordinates",
         Method::Blocks => "the parts' parameter spaces",
     };
     // Boxes of figures that are not listed were not compared with these.

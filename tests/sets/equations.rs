@@ -195,6 +195,98 @@ fn katsura_5_is_told_by_two_searches() {
     assert_eq!(found.len(), 16);
 }
 
+/// From powers of the unknowns as many paths as the product of the degrees come to all solutions of a random instance; the others
+/// go to infinity. The numbers are Bézout's, noon-3's that published, and the two between those of eliminating by hand.
+#[test]
+fn powers_of_unknowns_lead_to_all_solutions() {
+    let cases: [(&str, &[&str], usize, usize); 6] = [
+        ("x", &["x^5 - x = 1"], 5, 5),
+        ("x y", &["x^2 + 2*y^2 = 3", "x*y + 0.3*x = 1/7"], 4, 4),
+        (
+            "x y",
+            &["x^3 + y^3 + x*y = 2", "x^2*y - 3*y^2 + x = 1"],
+            9,
+            9,
+        ),
+        ("x y", &["x^4 + y = 1", "y - 2*x^2 = 3"], 8, 4),
+        // A quotient is an unknown, with an equation of degree 2.
+        ("x y", &["1/(x + y) + y = 3", "x - y^2 = 1"], 4, 3),
+        (
+            "x y z",
+            &[
+                "x*y^2 + x*z^2 - 1.1*x + 1 = 0",
+                "y*x^2 + y*z^2 - 1.1*y + 1 = 0",
+                "z*x^2 + z*y^2 - 1.1*z + 1 = 0",
+            ],
+            27,
+            21,
+        ),
+    ];
+    for (unknowns, equations, paths, solutions) in cases {
+        let text = format!(
+            "equations = {equations:?}\n[unknowns]\n{}",
+            unknowns.replace(' ', " = 0.6\n") + " = 0.7\n"
+        );
+        let lowered = krawl::complex::lower(&read(&text)).unwrap();
+        let filling = krawl::complex::Filling {
+            enough: lowered.enough(),
+            ..Default::default()
+        };
+        let fibre = krawl::complex::fill(&lowered.system, &filling).unwrap();
+        let led = fibre.led.expect("paths from powers");
+        let found = fibre.solutions.len();
+        assert_eq!((led.paths, found), (paths, solutions), "{text} {led:?}");
+        assert_eq!(
+            (led.infinite, led.stopped),
+            (paths - solutions, 0),
+            "{text}"
+        );
+    }
+}
+
+/// Where a search of boxes takes long the real solutions are those among as many complex ones as Bézout's bound allows: katsura-7's
+/// 44, in boxes that hold what Newton's method finds from them. What has fewer complex solutions is left to the search of boxes.
+#[test]
+fn real_solutions_are_told_by_all_complex_ones() {
+    let size = 7isize;
+    let mut equations: Vec<String> = (0..size)
+        .map(|m| {
+            let products = (-size..=size).filter(|l| (m - l).abs() <= size);
+            let terms: Vec<String> = products
+                .map(|l| format!("x{}*x{}", l.abs(), (m - l).abs()))
+                .collect();
+            format!("{} = x{m}", terms.join(" + "))
+        })
+        .collect();
+    equations.push("x0 + 2*x1 + 2*x2 + 2*x3 + 2*x4 + 2*x5 + 2*x6 + 2*x7 = 1".to_owned());
+    let unknowns: String = (0..=size).map(|k| format!("x{k} = 0.1\n")).collect();
+    let problem = read(&format!(
+        "equations = {equations:?}\n[unknowns]\n{unknowns}"
+    ));
+    let found = all(&problem, &Options::default()).unwrap();
+    assert_eq!((found.status, found.complex), (Status::Complete, Some(128)));
+    assert_eq!(found.count, Some(44));
+    for one in &found.solutions {
+        let x: Vec<f64> = one
+            .objects
+            .iter()
+            .map(|x| x.number().unwrap().mid())
+            .collect();
+        for m in 0..size {
+            let products = (-size..=size).filter(|l| (m - l).abs() <= size);
+            let sum: f64 = products
+                .map(|l| x[l.unsigned_abs()] * x[(m - l).unsigned_abs()])
+                .sum();
+            assert!((sum - x[m as usize]).abs() < 1e-12, "{x:?}");
+        }
+    }
+    // x^4 + y = 1 and y = 3 + 2 x^2 have no real solution, and four complex ones of at most eight.
+    let (found, is_complete) = real(&read(
+        "equations = [\"x^4 + y = 1\", \"y - 2*x^2 = 3\"]\n[unknowns]\nx = 1\ny = 2\n",
+    ));
+    assert!(is_complete && found.is_empty());
+}
+
 /// The same points with another number are another solution, and no congruence makes one of them.
 #[test]
 fn figures_with_other_numbers_are_other_solutions() {

@@ -28,6 +28,9 @@ pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
              what else the constraints need, were divided into boxes, and in each box that is not listed here it is proved \
              that there is no solution. Figures that the constraints do not tell apart are listed once."
         }
+        Some("complex") => {
+            "All complex solutions were found, as many as the product of the degrees allows: these are the real ones among them."
+        }
         _ => {
             "All figures with these dimensions were searched, wherever the sketch is: the parameters of a \
              construction plan were divided into boxes, and in each box that is not listed here it is proved that \

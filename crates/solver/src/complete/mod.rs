@@ -26,6 +26,7 @@
 #![allow(clippy::neg_cmp_op_on_partial_ord)]
 
 mod among;
+mod by_complex;
 mod choose;
 mod contract;
 mod coordinates;
@@ -103,7 +104,10 @@ fn unsigned(problem: &Problem, options: &Options) -> Result<Complete, Unserved> 
         return Ok(Complete::nearly(problem, near, begin));
     }
     if !problem.is_distances_only() {
-        return coordinates::all(problem, options);
+        let told = (!wants_one_search).then(|| by_complex::all(problem, options));
+        return told
+            .flatten()
+            .map_or_else(|| coordinates::all(problem, options), Ok);
     }
     if !wants_one_search && let Some(result) = parts::searched(problem, options) {
         return Ok(result);

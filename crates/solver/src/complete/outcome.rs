@@ -109,6 +109,8 @@ pub struct Complete {
     /// Of a search over coordinates: the largest block that was searched by constructing its unknowns as functions of a few of them, wherever they are
     /// bounded.
     pub constructed: Option<Constructed>,
+    /// Of a search among all complex solutions: how many these are.
+    pub complex: Option<usize>,
     /// The order in which the plan places the points.
     pub plan: Vec<usize>,
     /// Wall-clock seconds.
@@ -200,6 +202,8 @@ pub enum Method {
     Coordinates,
     /// Block by block, the blocks put together.
     Blocks,
+    /// Among all complex solutions, as many as Bézout's bound allows.
+    Complex,
 }
 
 impl Method {
@@ -209,6 +213,7 @@ impl Method {
             Method::Plan => "plan",
             Method::Coordinates => "coordinates",
             Method::Blocks => "blocks",
+            Method::Complex => "complex",
         }
     }
 }
@@ -369,6 +374,7 @@ impl Complete {
             boxes: 0,
             driving: 0,
             constructed: None,
+            complex: None,
             plan: Vec::new(),
             seconds: begin.elapsed().as_secs_f64(),
             seconds_left: None,

@@ -700,7 +700,8 @@ impl<'a> Figures<'a> {
     }
 }
 
-fn solutions(homotopy: &Homotopy, found: &[FigureBox]) -> Vec<Solution> {
+/// Figures in the order in which they were found, each a class of its own.
+pub(super) fn solutions(homotopy: &Homotopy, found: &[FigureBox]) -> Vec<Solution> {
     let figures = found.iter().enumerate();
     let figures = figures.map(|(class, figure)| {
         let points = figure.points(homotopy);
