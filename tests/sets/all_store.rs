@@ -202,7 +202,7 @@ fn a_first_line_that_is_damaged_or_of_another_search_is_not_believed() {
     assert_eq!(answer(&[DODECAGON, "--store", text(&store)], 0), once);
     // One digit of the plan.
     let first = whole.lines().next().unwrap();
-    let at = first.find(r#""centre":"#).unwrap() + r#""centre":"#.len();
+    let at = first.find(r#""point":"#).unwrap() + r#""point":"#.len();
     let digit = if &first[at..=at] == "9" { "8" } else { "9" };
     let said = with(&format!("{}{digit}{}", &whole[..at], &whole[at + 1..]));
     assert!(said.contains("first line is damaged"), "{said}");

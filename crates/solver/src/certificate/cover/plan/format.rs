@@ -6,13 +6,14 @@ use super::super::CoverError;
 use super::super::lines::{Lines, error, float, number};
 use crate::certificate::begun::before_one_record;
 use crate::certificate::format::TAG_COVER;
+use serde::{Deserialize, Serialize};
 use std::fmt::Write;
 
 /// Most symbols at a time.
 pub const MAX_SYMBOLS: usize = 6;
 
 /// How far a new point is from one that stands.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum Radius {
     /// The problem gives the distance.
     Given,
@@ -21,13 +22,14 @@ pub enum Radius {
 }
 
 /// How a point is placed (docs/how/sets.md, "Placing points").
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Kind {
-    /// In the plane, at the given distance from a point, in a driving direction.
+    /// In the plane, at the given distance from a point, in a driving direction: that point, and the driving parameter.
     Arm(usize, usize),
-    /// In space, on the hinge through two points, turned by a driving angle from a third.
+    /// In space, on the circle of points at given distances from two joined points, the hinge: these two and a third point joined to both, and
+    /// the driving parameter, an angle between the half planes from the hinge towards the point placed and towards the third.
     Hinge([usize; 3], usize),
-    /// At distances from as many points as dimensions.
+    /// At distances from as many points as dimensions; two places, on either side of the line or plane through those points.
     Meet(Vec<(usize, Radius)>),
 }
 
