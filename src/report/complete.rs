@@ -67,7 +67,7 @@ impl<'a> Document<'a> {
                 .collect(),
             independent: &result.choices,
             decided_first: result.first_choice.as_ref(),
-            tested: result.tested.as_ref().map(Counts::new),
+            tested: result.tested.as_ref(),
             signed: result.signed.map(Signs::from),
             solutions: result
                 .solutions
@@ -117,7 +117,7 @@ struct Document<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     decided_first: Option<&'a Choice>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    tested: Option<Counts<'a>>,
+    tested: Option<&'a Tested>,
     #[serde(skip_serializing_if = "Option::is_none")]
     signed: Option<Signs>,
     solutions: Vec<Entry<'a>>,
@@ -148,39 +148,6 @@ struct Entry<'a> {
 fn figure(result: &Complete, index: usize) -> &[LeftOut] {
     let tested = result.tested.as_ref();
     tested.map_or(&[], |tested| &tested.figures[index])
-}
-
-/// What came of the figures that have the constraints used.
-#[derive(serde::Serialize)]
-pub(super) struct Counts<'a> {
-    used: usize,
-    of: usize,
-    found: Option<u64>,
-    met: usize,
-    missed: usize,
-    missed_by: Option<f64>,
-    within: Option<f64>,
-    undecided: usize,
-    left_out: &'a [String],
-    #[serde(skip_serializing_if = "<[_]>::is_empty")]
-    added: &'a [String],
-}
-
-impl<'a> Counts<'a> {
-    pub(super) fn new(tested: &'a Tested) -> Self {
-        Counts {
-            used: tested.used,
-            of: tested.all,
-            found: tested.found,
-            met: tested.met,
-            missed: tested.missed,
-            missed_by: tested.by.is_finite().then_some(tested.by),
-            within: (tested.met > 0).then_some(tested.within),
-            undecided: tested.undecided,
-            left_out: &tested.left_out,
-            added: &tested.added,
-        }
-    }
 }
 
 /// What came of the figures by the signs that are asked for.

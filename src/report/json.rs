@@ -1,6 +1,6 @@
 //! Results for programs (docs/using/programs.md, docs/schema/result.schema.json).
 
-use super::complete::{Counts, Signs};
+use super::complete::Signs;
 use super::drawing::{Drawing, names};
 use super::edit::alone_to_value;
 use super::marks::Marks;
@@ -103,7 +103,7 @@ struct Document<'a> {
     stopped_kind: Option<&'static str>,
     verdict: String,
     #[serde(skip_serializing_if = "Option::is_none")]
-    tested: Option<Counts<'a>>,
+    tested: Option<&'a Tested>,
     #[serde(skip_serializing_if = "Option::is_none")]
     signed: Option<Signs>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -231,7 +231,7 @@ impl<'a> Document<'a> {
             reason: stop.map(|stop| stop.text.as_str()),
             stopped_kind: stop.map(|stop| stop.kind.name()),
             verdict: verdict(problem, outcome, tested),
-            tested: tested.map(Counts::new),
+            tested,
             signed: outcome.signed.map(Signs::from),
             ends: ends(problem, &outcome.status),
             solutions: outcome
