@@ -2,7 +2,7 @@
 
 use super::columns::{DIGITS, write_digits, written};
 use super::drawing::{Drawing, all_names, names};
-use super::json::{Points, text, value};
+use super::json::{Beside, Points, beside, text, value};
 use super::objects::Objects;
 use super::supposed::supposed;
 use super::table::write_objects;
@@ -13,6 +13,7 @@ use crate::constraint::{Symmetry, symmetry};
 use crate::interval::Interval;
 use crate::problem::{Object, Problem, Shape, counted, either, list};
 use crate::track::{Mode, Signed};
+use serde_json::{Map, Value};
 use std::fmt::Write;
 
 /// Of the parts that a sketch falls apart into, so many are shown.
@@ -39,6 +40,18 @@ const LISTED: usize = 24;
 /// reference points.
 pub fn complete_to_json(problem: &Problem, result: &Complete) -> String {
     text(&Document::new(problem, result))
+}
+
+/// The same, with what was asked for beside it, under these keys.
+pub fn complete_to_json_with(
+    problem: &Problem,
+    result: &Complete,
+    more: impl IntoIterator<Item = Beside>,
+) -> String {
+    text(&Document {
+        beside: beside(more),
+        ..Document::new(problem, result)
+    })
 }
 
 /// What [`complete_to_json`] writes, as a value in memory.
@@ -97,6 +110,7 @@ impl<'a> Document<'a> {
             constructed: result.constructed,
             turned: &result.turned,
             plan: names(problem, &result.plan),
+            beside: Map::new(),
         }
     }
 }
@@ -131,6 +145,8 @@ struct Document<'a> {
     #[serde(skip_serializing_if = "<[_]>::is_empty")]
     turned: &'a [String],
     plan: Vec<&'a str>,
+    #[serde(flatten)]
+    beside: Map<String, Value>,
 }
 
 #[derive(serde::Serialize)]

@@ -2,19 +2,17 @@
 
 use super::complete::Signs;
 use super::drawing::{Drawing, names};
-use super::edit::alone_to_value;
 use super::marks::Marks;
 use super::objects::Objects;
 use super::table::verdict;
-use crate::complete::{Among, Tested};
-use crate::edit::Alone;
+use crate::complete::Tested;
 use crate::interval::Interval;
 use crate::places::Each as _;
 use crate::problem::{Decimal, Problem};
 use crate::track::{Mode, Options, Outcome, Preset, Solution, Status, Trace};
 use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
-use serde_json::Value;
+use serde_json::{Map, Value};
 
 /// The version of the format: it grows when a key changes its meaning or goes; new keys alone do not
 /// change it.
@@ -58,19 +56,10 @@ impl<'a> Run<'a> {
         text(&Document::new(self))
     }
 
-    /// The same, with how many of all figures the path has, where that is known, what one dimension can do alone, where the path has
-    /// no figure, what is measured of the solutions, and these to many digits.
-    pub fn to_json_among(
-        &self,
-        among: Option<Among>,
-        alone: &[Alone],
-        (measures, digits): (Option<Value>, Option<Value>),
-    ) -> String {
+    /// The same, with what was asked for beside it, under these keys.
+    pub fn to_json_with(&self, more: impl IntoIterator<Item = Beside>) -> String {
         text(&Document {
-            of_all: among.map(|among| among.all),
-            alone: (!alone.is_empty()).then(|| alone_to_value(alone)),
-            measures,
-            digits,
+            beside: beside(more),
             ..Document::new(self)
         })
     }
@@ -79,6 +68,17 @@ impl<'a> Run<'a> {
     pub fn to_value(&self) -> Value {
         value(&Document::new(self))
     }
+}
+
+/// What was asked for beside a result, if it was, and its key.
+pub type Beside = (&'static str, Option<Value>);
+
+/// The keys of what was asked for.
+pub(super) fn beside(more: impl IntoIterator<Item = Beside>) -> Map<String, Value> {
+    let asked = more
+        .into_iter()
+        .filter_map(|(key, value)| Some((key.to_owned(), value?)));
+    asked.collect()
 }
 
 /// A result as one line of JSON.
@@ -121,14 +121,8 @@ struct Document<'a> {
     t_range: [f64; 2],
     seconds: f64,
     switched_on: &'a [String],
-    #[serde(skip_serializing_if = "Option::is_none")]
-    of_all: Option<u64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    alone: Option<Value>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    measures: Option<Value>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    digits: Option<Value>,
+    #[serde(flatten)]
+    beside: Map<String, Value>,
 }
 
 #[derive(Serialize)]
@@ -252,10 +246,7 @@ impl<'a> Document<'a> {
             t_range: [outcome.t_range.0, outcome.t_range.1],
             seconds: outcome.seconds,
             switched_on: &outcome.switched_on,
-            of_all: None,
-            alone: None,
-            measures: None,
-            digits: None,
+            beside: Map::new(),
         }
     }
 }
