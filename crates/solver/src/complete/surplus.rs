@@ -6,7 +6,7 @@
 //! of the problem), or neither.
 
 use super::{Complete, Options, Unserved, all};
-use crate::blocks::{Account, LeftOut, MOST_POINTS, Ruler, Verdict};
+use crate::blocks::{Account, LeftOut, MOST_POINTS, Ruler, Verdict, Whose};
 use crate::interval::{Interval, point};
 use crate::linalg::Span;
 use crate::places::Each as _;
@@ -147,8 +147,7 @@ impl Surplus {
         let spare = (0..edges.len()).filter(|&e| !is_used[e]).map(|e| Spare {
             name: problem.distance_name(e),
             distance: problem.distances[e].clone(),
-            // The owner of a distance's equation: behind objects, constraints and those of none, of which there are none here.
-            epsilon: Ruler::new(problem, 1 + e, (unit, 1), tolerance).epsilon,
+            epsilon: Ruler::new(problem, Whose::Distance(e), (unit, 1), tolerance).epsilon,
         });
         let mut used = is_used.iter();
         Some(Surplus {
