@@ -337,6 +337,7 @@ impl Mark {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::random::Random;
 
     #[test]
     fn marks_are_read_as_they_were_written() {
@@ -384,13 +385,8 @@ mod tests {
 
     #[test]
     fn what_is_left_holds_what_was_wanted_and_little_more() {
-        let mut state = 7u64;
-        let mut random = || {
-            state = state
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1);
-            (state >> 11) as f64 / (1u64 << 53) as f64
-        };
+        let mut random = Random::new(7);
+        let mut random = || 0.5 + 0.5 * random.symmetric();
         for _ in 0..10_000 {
             let lo = 4.0 * random() - 2.0;
             let hi = lo + 2f64.powf(-50.0 * random());
