@@ -579,30 +579,28 @@ pub(super) fn counted_or_many(count: Option<u64>, what: &str) -> String {
 pub(super) fn counted_once(problem: &Problem, symmetry: Symmetry) -> (&'static str, &'static str) {
     let of_numbers = |object: &Object| matches!(object.shape, Shape::Number { .. });
     let has_numbers = problem.objects.iter().any(of_numbers);
-    match symmetry {
-        // The same figure with other numbers is another solution.
-        _ if problem.points.is_empty() => ("", "no two are the same"),
-        Symmetry::Isometries if has_numbers => (
-            " up to rigid motions and reflections",
-            "no two have the same numbers and are congruent, even up to reflection",
-        ),
-        Symmetry::Motions if has_numbers => (
-            " up to rigid motions",
-            "no two have the same numbers and are the same figure moved",
-        ),
-        Symmetry::Identity if has_numbers => (
-            " in the coordinates of the file",
-            "no two are the same figure with the same numbers",
-        ),
+    let (up_to, different, with_numbers) = match symmetry {
+        _ if problem.points.is_empty() => return ("", "no two are the same"),
         Symmetry::Isometries => (
             " up to rigid motions and reflections",
             "no two are congruent, even up to reflection",
+            "no two have the same numbers and are congruent, even up to reflection",
         ),
-        Symmetry::Motions => (" up to rigid motions", "no two are the same figure moved"),
+        Symmetry::Motions => (
+            " up to rigid motions",
+            "no two are the same figure moved",
+            "no two have the same numbers and are the same figure moved",
+        ),
         Symmetry::Identity => (
             " in the coordinates of the file",
             "no two are the same figure",
+            "no two are the same figure with the same numbers",
         ),
+    };
+    // The same figure with other numbers is another solution.
+    match has_numbers {
+        true => (up_to, with_numbers),
+        false => (up_to, different),
     }
 }
 
