@@ -13,7 +13,7 @@ use crate::constraint::{Symmetry, symmetry};
 use crate::interval::Interval;
 use crate::problem::{Object, Problem, Shape, counted, either, list};
 use crate::track::{Mode, Signed};
-use serde_json::{Map, Value};
+use serde_json::{Map, Value, json};
 use std::fmt::Write;
 
 /// Of the parts that a sketch falls apart into, so many are shown.
@@ -71,17 +71,19 @@ impl<'a> Document<'a> {
             parts: result
                 .parts
                 .iter()
-                .map(|part| Piece {
-                    points: all_names(&part.problem),
-                    status: part.result.status.name(),
-                    solutions: part.result.solutions.len(),
-                    boxes: part.result.boxes,
+                .map(|part| {
+                    json!({
+                        "points": all_names(&part.problem),
+                        "status": part.result.status.name(),
+                        "solutions": part.result.solutions.len(),
+                        "boxes": part.result.boxes,
+                    })
                 })
                 .collect(),
             independent: &result.choices,
             decided_first: result.first_choice.as_ref(),
             tested: result.tested.as_ref(),
-            signed: result.signed.map(Signs::from),
+            signed: result.signed.map(signs),
             solutions: result
                 .solutions
                 .iter()
@@ -97,10 +99,8 @@ impl<'a> Document<'a> {
             undecided: result
                 .undecided
                 .iter()
-                .map(|part| Undecided {
-                    reason: why(part.why),
-                    parts: part.count,
-                    share: part.share,
+                .map(|part| {
+                    json!({"reason": why(part.why), "parts": part.count, "share": part.share})
                 })
                 .collect(),
             boxes: result.boxes,
@@ -125,7 +125,7 @@ struct Document<'a> {
     method: &'static str,
     count: Option<u64>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    parts: Vec<Piece<'a>>,
+    parts: Vec<Value>,
     #[serde(skip_serializing_if = "<[_]>::is_empty")]
     independent: &'a [Choice],
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -133,9 +133,9 @@ struct Document<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     tested: Option<&'a Tested>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    signed: Option<Signs>,
+    signed: Option<Value>,
     solutions: Vec<Entry<'a>>,
-    undecided: Vec<Undecided>,
+    undecided: Vec<Value>,
     boxes: u64,
     seconds: f64,
     seconds_left: Option<f64>,
@@ -167,41 +167,14 @@ fn figure(result: &Complete, index: usize) -> &[LeftOut] {
 }
 
 /// What came of the figures by the signs that are asked for.
-#[derive(serde::Serialize)]
-pub(super) struct Signs {
-    asked: usize,
-    parts_given_up: u64,
-    wrong: u64,
-    mirrored: usize,
-    undecided: u64,
-}
-
-impl From<Signed> for Signs {
-    fn from(signed: Signed) -> Self {
-        Signs {
-            asked: signed.asked,
-            parts_given_up: signed.cut,
-            wrong: signed.wrong,
-            mirrored: signed.mirrored,
-            undecided: signed.undecided,
-        }
-    }
-}
-
-/// A part of a problem that falls apart.
-#[derive(serde::Serialize)]
-struct Piece<'a> {
-    points: Vec<&'a str>,
-    status: &'static str,
-    solutions: usize,
-    boxes: u64,
-}
-
-#[derive(serde::Serialize)]
-struct Undecided {
-    reason: &'static str,
-    parts: u64,
-    share: f64,
+pub(super) fn signs(signed: Signed) -> Value {
+    json!({
+        "asked": signed.asked,
+        "parts_given_up": signed.cut,
+        "wrong": signed.wrong,
+        "mirrored": signed.mirrored,
+        "undecided": signed.undecided,
+    })
 }
 
 pub(super) fn why(why: Why) -> &'static str {
