@@ -4,21 +4,20 @@ use super::digits::ManyDigits;
 use super::edit::say_if_it_moves;
 use super::input::Asked;
 use super::measured::{Measured, placed};
-use super::output::{self, Beside, Destination, Refusal, beside, number};
+use super::output::{self, Beside, Refusal, number};
 use super::pictures::Pictures;
+use super::results::Results;
 use super::take::{Candidates, Take, Taken};
 use super::verify::check_cover;
-use super::{BAD_INPUT, CLOSED, INCOMPLETE, NOT_PROVED, STOPPED, input, interrupt};
+use super::{CLOSED, INCOMPLETE, NOT_PROVED, STOPPED, input, interrupt};
 use krawl::blocks::Account;
 use krawl::complete::{Complete, Keep, Options, Progress, Status, Tested, Unserved, all};
 use krawl::constraint::Symmetry;
 use krawl::problem::counted;
 use krawl::report::{
-    ProgressLine, complete_to_json, complete_to_table, complete_to_value, conformers_to_table,
+    ProgressLine, complete_to_json_with, complete_to_table, complete_to_value, conformers_to_table,
     conformers_to_value, digits_to_table, digits_to_value,
 };
-use serde_json::{Map, Value};
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -138,7 +137,8 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
         }
     };
     let measures = arguments.measured.of(&problem)?;
-    let json = beside([file], arguments.json.as_deref())?;
+    let named = [arguments.json.as_deref(), None];
+    let mut results = Results::open([file], named, &arguments.pictures, arguments.quiet)?;
     output::refuse_read([file], arguments.cert.as_deref())?;
     if let Some(cert) = &arguments.cert
         && Some(cert) == arguments.json.as_ref()
@@ -147,7 +147,6 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
         let what = "is the file of both --cert and --json; name another one for one of them";
         return Err(format!("{cert}: {what}").into());
     }
-    let pictures = arguments.pictures.places([&arguments.file])?;
     // Before any file is begun, so that an interrupt leaves none behind.
     interrupt::flag();
     let cert = arguments.cert.as_deref().map(Beside::new).transpose()?;
@@ -169,8 +168,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
         }),
         ..Options::default()
     };
-    let elsewhere = json == Some(Destination::StandardOutput) || pictures.use_standard_output();
-    if !arguments.quiet && !elsewhere {
+    if results.is_told() {
         say_if_it_moves(&problem);
     }
     let result = match &surplus {
@@ -185,13 +183,11 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
             code: STOPPED,
         },
     })?;
-    let mut written = true;
     let mut checked = Checked::default();
     match (&cert, result.cover.take()) {
         (Some(beside), Some(cover)) => {
-            let whole = (&mut beside.file()).write_all(&cover);
-            let is_there = beside.commit(whole);
-            written &= is_there;
+            let is_there = beside.write(&cover);
+            results.note(is_there);
             if let Some(path) = &arguments.cert
                 && is_there
                 && !arguments.no_verify
@@ -208,47 +204,41 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
         }),
         _ => {}
     }
-    written &= pictures.write_page(|| complete_to_value(&problem, &result))?;
+    results.write_page(|| complete_to_value(&problem, &result))?;
     let figures = || result.solutions.iter().map(placed);
     let either = result.symmetry == Symmetry::Isometries;
-    let is_told = !arguments.quiet && !elsewhere;
-    let conformers = skeleton
-        .filter(|_| is_told || json.is_some())
-        .map(|skeleton| {
-            let solutions = result.solutions.iter();
-            let middles = solutions.map(|s| s.points.iter().map(|p| p.map(|x| x.mid())).collect());
-            let middles: Vec<Vec<[f64; 3]>> = middles.collect();
-            let conformers = skeleton.conformers(&middles, either);
-            (skeleton, conformers)
-        });
+    let conformers = skeleton.filter(|_| results.are_read()).map(|skeleton| {
+        let solutions = result.solutions.iter();
+        let middles = solutions.map(|s| s.points.iter().map(|p| p.map(|x| x.mid())).collect());
+        let middles: Vec<Vec<[f64; 3]>> = middles.collect();
+        let conformers = skeleton.conformers(&middles, either);
+        (skeleton, conformers)
+    });
     let many = arguments
         .many
         .of(&problem, &result.reference, &result.solutions);
-    if let Some(json) = &json {
-        let mut more = Map::new();
-        if !measures.is_empty() {
-            more.insert("measures".to_owned(), measures.to_value(figures()));
-        }
-        if let Some((skeleton, conformers)) = &conformers {
-            let told = conformers_to_value(&problem, skeleton, conformers);
-            more.insert("conformers".to_owned(), told);
-        }
-        if arguments.many.is_wanted() {
-            more.insert("digits".to_owned(), digits_to_value(&problem, &many));
-        }
-        let text = match more.is_empty() {
-            true => complete_to_json(&problem, &result),
-            false => {
-                let mut all = complete_to_value(&problem, &result);
-                if let Value::Object(all) = &mut all {
-                    all.append(&mut more);
-                }
-                all.to_string()
-            }
-        };
-        written &= json.write(&(text + "\n"));
-    }
-    if is_told {
+    results.write_json(|| {
+        let conformers = conformers.as_ref();
+        let more = [
+            (
+                "measures",
+                (!measures.is_empty()).then(|| measures.to_value(figures())),
+            ),
+            (
+                "conformers",
+                conformers.map(|(of, all)| conformers_to_value(&problem, of, all)),
+            ),
+            (
+                "digits",
+                arguments
+                    .many
+                    .is_wanted()
+                    .then(|| digits_to_value(&problem, &many)),
+            ),
+        ];
+        complete_to_json_with(&problem, &result, more) + "\n"
+    });
+    results.print(|| {
         let mut text = complete_to_table(&problem, &result);
         text += &measures.to_table("", figures());
         if let Some((skeleton, conformers)) = &conformers {
@@ -260,29 +250,23 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
             text +=
                 &format!("\nThe sketch was searched with as many equations as unknowns, {made}.\n");
         }
-        text += &checked.text;
-        written &= output::print(&text);
-    }
+        text + &checked.text
+    });
     let count = result.solutions.len() as u64;
     let listed = Candidates {
         count,
         first: None,
         is_all: result.count == Some(count),
     };
-    written &= arguments
-        .take
-        .write((file, sketch), &problem, listed, |number| {
-            Taken::of(&problem, &result.solutions[number as usize], either)
-        });
+    let figure = |number| Taken::of(&problem, &result.solutions[number as usize], either);
+    let take = &arguments.take;
+    results.note(take.write((file, sketch), &problem, listed, figure));
     let is_decided = result.tested.as_ref().is_none_or(Tested::is_decided);
     let of_status = match result.status {
         Status::Complete if is_decided => CLOSED,
         _ => STOPPED,
     };
-    Ok(match written {
-        true => checked.code.unwrap_or(of_status),
-        false => BAD_INPUT,
-    })
+    Ok(results.code(checked.code.unwrap_or(of_status)))
 }
 
 /// What comes of the check of a certificate.

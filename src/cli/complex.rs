@@ -8,7 +8,6 @@ use krawl::certificate::complex::{ComplexFlaw, verify_complex_set};
 use krawl::complex::{Lowered, Status, Template, Ways, solve, to_certificate};
 use krawl::problem::Problem;
 use krawl::report::{ProgressLine, complex_to_json, complex_to_table};
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 /// Find all complex solutions, every path proved (unless --float)
@@ -110,7 +109,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
         match to_certificate(&problem, &lowered, &result) {
             Some(set) => {
                 let bytes = set.to_bytes();
-                written &= cert.commit(cert.file().write_all(&bytes));
+                written &= cert.write(&bytes);
                 let verdict = arguments.search.in_pool(|| verify_complex_set(&bytes))?;
                 let verdict = verdict.map_err(|e| format!("{file}: {e}"))?;
                 if let Some(ComplexFlaw::False(why) | ComplexFlaw::NotProved(why)) = verdict.flaw {

@@ -1,8 +1,9 @@
 //! `krawl edit`: changes dimensions and takes the figure along.
 
 use super::measured::Measured;
-use super::output::{self, Beside, Destination, Refusal, beside};
+use super::output::{self, Beside, Refusal};
 use super::pictures::Pictures;
+use super::results::Results;
 use super::take::check_format;
 use super::verify::check_written;
 use super::{BAD_INPUT, CLOSED, LIMIT, PASSES, STOPPED, input, interrupt, serve};
@@ -15,7 +16,7 @@ use krawl::remarks::moves;
 use krawl::report::{account_in_words, edit_to_document, edit_to_table, signs_of_figure};
 use krawl::track::{Control, Options, StopKind, Witness};
 use std::fs::File;
-use std::io::{BufWriter, Write};
+use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 
 /// Change dimensions of a figure and keep the figure, with proof, or say how far it can go
@@ -183,8 +184,9 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
             None => cert = None,
         }
     }
-    let json = beside([&arguments.file], arguments.json.as_deref())?;
-    let pictures = arguments.pictures.places([&arguments.file])?;
+    let named = [arguments.json.as_deref(), None];
+    let pictures = &arguments.pictures;
+    let mut results = Results::open([&arguments.file], named, pictures, arguments.quiet)?;
     // Before any file is begun, so that an interrupt leaves none behind.
     interrupt::flag();
     let begun = cert.map(Beside::new).transpose()?;
@@ -194,8 +196,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
         witness: witness.as_mut().map(|writer| writer as &mut dyn Witness),
         ..interrupt::control()
     };
-    let elsewhere = json == Some(Destination::StandardOutput) || pictures.use_standard_output();
-    if !arguments.quiet && !elsewhere {
+    if results.is_told() {
         say_if_it_moves(&problem);
     }
     let opened = match drags.is_empty() {
@@ -214,22 +215,22 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
     loaded.add_left_out(&mut edited.account, Some(&edited.points));
     let moved = session.moved();
 
-    let (mut written, verdict) = commit(
+    let (is_written, verdict) = commit(
         (begun.as_ref(), witness),
         (&arguments.file, &edited),
         cert.filter(|_| !arguments.no_verify),
         arguments.quiet,
     )?;
     let figure = || std::iter::once((&edited.points[..], &edited.objects[..]));
-    let document = || {
+    results.note(is_written);
+    results.write(|| {
         let mut value = edit_to_document(&problem, &edited, &session);
         value["warnings"] = warnings.clone().into();
         if !measures.is_empty() {
             value["measures"] = measures.to_value(figure());
         }
         value
-    };
-    written &= pictures.write_result(json.as_ref(), document)?;
+    })?;
     if let Some(out) = &arguments.out
         && edited.ending == Ending::Reached
     {
@@ -239,10 +240,9 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
         changed.parameters = asked.parameters;
         let bytes = loaded.rewritten(&arguments.file, &changed, &points, &objects);
         let bytes = bytes.map_err(|e| in_file(&e))?;
-        let beside = Beside::new(out)?;
-        written &= beside.commit(beside.file().write_all(&bytes));
+        results.note(Beside::new(out)?.write(&bytes));
     }
-    if !arguments.quiet && !elsewhere {
+    results.print(|| {
         let drawn = match &edited.singular {
             None => drawn_in_words(&problem, &session),
             Some(_) => String::new(),
@@ -259,12 +259,9 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
         for warning in &warnings {
             text += &format!("warning             {warning}\n");
         }
-        written &= output::print(&text);
-    }
-    Ok(match written {
-        true => verdict.unwrap_or(exit_code(&edited)),
-        false => BAD_INPUT,
-    })
+        text
+    });
+    Ok(results.code(verdict.unwrap_or(exit_code(&edited))))
 }
 
 /// What a certificate of edits is about.

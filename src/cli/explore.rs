@@ -1,9 +1,10 @@
 //! `krawl explore`: new sketches from solutions, and their paths, until nothing new comes.
 
-use super::output::{self, Beside, Destination, beside, number};
+use super::output::{self, Beside, Destination, number};
 use super::pictures::Pictures;
+use super::results::Results;
 use super::verify::check_written;
-use super::{BAD_INPUT, CLOSED, INCOMPLETE, input, interrupt};
+use super::{CLOSED, INCOMPLETE, input, interrupt};
 use krawl::certificate::Writer;
 use krawl::complete::{self, all};
 use krawl::explore::{ExploreError, Explorer, Finish, Options, Progress};
@@ -113,8 +114,9 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
     let (problem, published) = read(arguments)?;
     output::say_if_signs_are_not_looked_at(&problem);
     let problem = problem.unsigned();
-    let json = beside([&arguments.file], arguments.json.as_deref())?;
-    let pictures = arguments.pictures.places([&arguments.file])?;
+    let named = [arguments.json.as_deref(), None];
+    let pictures = &arguments.pictures;
+    let mut results = Results::open([&arguments.file], named, pictures, arguments.quiet)?;
     let cancel = interrupt::flag();
     let at = |error: ExploreError| match error {
         ExploreError::Problem(_) | ExploreError::Unserved(_) => format!("{file}: {error}"),
@@ -141,7 +143,6 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
     let finish = explorer.run(&options);
     line.clear();
     let finish = finish.map_err(at)?;
-    let mut written = true;
     if let Some(count) = arguments.shard {
         let units = share(&mut explorer, count as usize).map_err(at)?;
         if !arguments.quiet {
@@ -152,7 +153,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
         }
     }
     if let Some(folder) = &arguments.proofs {
-        written &= prove(&explorer, folder, arguments.quiet)?;
+        results.note(prove(&explorer, folder, arguments.quiet)?);
     }
     let traced = match arguments.samples.is_some() || arguments.pictures.want_path() {
         true => trace(&explorer, arguments.quiet),
@@ -176,20 +177,14 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
             explorer.contents().classes.len()
         ));
     }
-    if let Some(json) = &json {
-        written &= json.write(&(explore_to_json(&explored) + "\n"));
-    }
-    written &= pictures.write_page(|| explore_to_value(&explored))?;
-    let elsewhere = json == Some(Destination::StandardOutput) || pictures.use_standard_output();
-    if !arguments.quiet && !elsewhere {
-        written &= output::print(&explore_to_table(&explored, arguments.all));
-    }
-    Ok(match finish {
-        _ if !written => BAD_INPUT,
-        _ if !explorer.contents().out.is_empty() => INCOMPLETE,
-        Finish::Ended => CLOSED,
+    results.write_json(|| explore_to_json(&explored) + "\n");
+    results.write_page(|| explore_to_value(&explored))?;
+    results.print(|| explore_to_table(&explored, arguments.all));
+    let is_shared = !explorer.contents().out.is_empty();
+    Ok(results.code(match finish {
+        Finish::Ended if !is_shared => CLOSED,
         _ => INCOMPLETE,
-    })
+    }))
 }
 
 fn read(arguments: &Arguments) -> Result<(Problem, Vec<Published>), String> {
@@ -277,8 +272,7 @@ fn share(explorer: &mut Explorer, count: usize) -> Result<usize, ExploreError> {
         let path = folder.join(format!("unit-{unit}.krawl-unit"));
         let failed = |error: String| ExploreError::File(path.clone(), error);
         let beside = Beside::new(&path).map_err(&failed)?;
-        let whole = std::io::Write::write_all(&mut beside.file(), share.write().as_bytes());
-        match beside.commit(whole) {
+        match beside.write(share.write().as_bytes()) {
             true => Ok(()),
             false => Err(failed("the work unit cannot be written".to_owned())),
         }

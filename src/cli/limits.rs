@@ -1,9 +1,10 @@
 //! `krawl limits`: how far each dimension can go alone.
 
 use super::edit::{LeftOut, drawn_in_words, open};
-use super::output::{self, Destination, Refusal, beside};
+use super::output::{self, Refusal};
 use super::pictures::Pictures;
-use super::{BAD_INPUT, CLOSED, STOPPED, input, interrupt};
+use super::results::Results;
+use super::{CLOSED, STOPPED, input, interrupt};
 use krawl::edit::{End, Setting};
 use krawl::report::{ranges_to_table, ranges_to_value};
 use std::path::PathBuf;
@@ -55,11 +56,12 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
     let only = only
         .collect::<Result<Vec<_>, _>>()
         .map_err(|error| format!("{shown}: {error}"))?;
-    let json = beside([&arguments.source.file], arguments.json.as_deref())?;
-    let pictures = arguments.pictures.places([&arguments.source.file])?;
+    let file = &arguments.source.file;
+    let named = [arguments.json.as_deref(), None];
+    let mut results = Results::open([file], named, &arguments.pictures, arguments.quiet)?;
     let mut control = interrupt::control();
     let options = arguments.left_out.options();
-    let mut session = open(problem, &arguments.source.file, &options, &mut control)?;
+    let mut session = open(problem, file, &options, &mut control)?;
     let mut ranges: Vec<_> = match only.is_empty() {
         true => session.ranges(&mut control),
         false => only
@@ -70,20 +72,14 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
     for range in &mut ranges {
         loaded.add_left_out(&mut range.account, None);
     }
-    let value = || ranges_to_value(problem, &ranges, session.moved());
-    let mut written = pictures.write_result(json.as_ref(), value)?;
-    let elsewhere = json == Some(Destination::StandardOutput) || pictures.use_standard_output();
-    if !arguments.quiet && !elsewhere {
+    results.write(|| ranges_to_value(problem, &ranges, session.moved()))?;
+    results.print(|| {
         let drawn = drawn_in_words(problem, &session);
-        written &= output::print(&(drawn + &ranges_to_table(problem, &ranges, session.moved())));
-    }
+        drawn + &ranges_to_table(problem, &ranges, session.moved())
+    });
     let is_known = |end: &End| !matches!(end, End::Unknown(..));
     let all = ranges
         .iter()
         .all(|range| is_known(&range.low) && is_known(&range.high));
-    Ok(match (written, all) {
-        (false, _) => BAD_INPUT,
-        (true, true) => CLOSED,
-        (true, false) => STOPPED,
-    })
+    Ok(results.code(if all { CLOSED } else { STOPPED }))
 }

@@ -18,6 +18,7 @@ mod motion;
 mod output;
 mod pictures;
 mod processor;
+mod results;
 mod serve;
 mod shell;
 mod show;
@@ -191,7 +192,7 @@ pub fn run() -> ExitCode {
         Verb::Solve(arguments) => solve::run(&arguments),
         Verb::Sweep(arguments) => Ok(output::exit_code(sweep::run(&arguments))),
         Verb::Template(arguments) => template::run(&arguments),
-        Verb::Tolerance(arguments) => tolerance::run(&arguments),
+        Verb::Tolerance(arguments) => Ok(output::exit_code(tolerance::run(&arguments))),
         Verb::Verify(arguments) => verify::run(&arguments),
         Verb::Work(arguments) => work::run(&arguments),
         Verb::Completions(arguments) => shell::completions(&arguments),

@@ -1,9 +1,10 @@
 //! `krawl motion`: how a figure moves that has one degree of freedom.
 
 use super::measured::Measured;
-use super::output::{self, Destination, Refusal, beside};
+use super::output::{self, Refusal};
 use super::pictures::Pictures;
-use super::{BAD_INPUT, CLOSED, OPEN, STOPPED, input, interrupt};
+use super::results::Results;
+use super::{CLOSED, OPEN, STOPPED, input, interrupt};
 use krawl::motion::Motion;
 use krawl::report::{motion_in_words, motion_to_csv, motion_to_table, motion_to_value};
 use krawl::track::Options;
@@ -59,9 +60,9 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
     output::say_if_signs_are_not_looked_at(problem);
     // What can be measured is known before anything is followed.
     let measures = arguments.measured.of_points(problem)?;
-    let json = beside([&arguments.source.file], arguments.json.as_deref())?;
-    let csv = beside([&arguments.source.file], arguments.csv.as_deref())?;
-    let pictures = arguments.pictures.places([&arguments.source.file])?;
+    let file = &arguments.source.file;
+    let named = [arguments.json.as_deref(), arguments.csv.as_deref()];
+    let mut results = Results::open([file], named, &arguments.pictures, arguments.quiet)?;
     let mut control = interrupt::control();
     let motion = Motion::of(
         problem,
@@ -70,31 +71,15 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
         &Options::certified(),
         &mut control,
     );
-    let mut motion = motion.map_err(|error| match control.is_interrupted() {
-        true => Refusal {
-            message: "interrupted before anything was proved".to_owned(),
-            code: STOPPED,
-        },
-        false => format!("{}: {error}", arguments.source.file.display()).into(),
-    })?;
+    let mut motion = motion.map_err(|error| Refusal::of_run(file, &error, &control))?;
     // Frames are not all of the way.
     loaded.add_left_out(&mut motion.account, None);
-    let mut written = true;
-    if let Some(csv) = &csv {
-        written &= csv.write(&motion_to_csv(&motion, &measures));
-    }
-    written &= pictures.write_result(json.as_ref(), || motion_to_value(&motion))?;
-    let standard = Some(Destination::StandardOutput);
-    let elsewhere = json == standard || csv == standard || pictures.use_standard_output();
-    if elsewhere && !arguments.quiet {
-        output::complain(&motion_in_words(&motion));
-    } else if !arguments.quiet {
-        written &= output::print(&motion_to_table(&motion));
-    }
-    Ok(match (written, motion.is_loop(), motion.is_told()) {
-        (false, ..) => BAD_INPUT,
-        (_, true, _) => CLOSED,
-        (_, _, true) => OPEN,
+    results.write_csv(|| motion_to_csv(&motion, &measures));
+    results.write(|| motion_to_value(&motion))?;
+    results.print_or_say(|| motion_to_table(&motion), || motion_in_words(&motion));
+    Ok(results.code(match (motion.is_loop(), motion.is_told()) {
+        (true, _) => CLOSED,
+        (_, true) => OPEN,
         _ => STOPPED,
-    })
+    }))
 }

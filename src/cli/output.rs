@@ -2,6 +2,7 @@
 
 use krawl::problem::Problem;
 use krawl::report::signs_not_looked_at;
+use krawl::track::Control;
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -23,6 +24,19 @@ pub fn complain(message: &str) {
 pub struct Refusal {
     pub message: String,
     pub code: u8,
+}
+
+impl Refusal {
+    /// Of a run about a file of which nothing was proved: it was interrupted before, or why.
+    pub fn of_run(file: &Path, error: &str, control: &Control) -> Self {
+        match control.is_interrupted() {
+            true => Refusal {
+                message: "interrupted before anything was proved".to_owned(),
+                code: super::STOPPED,
+            },
+            false => format!("{}: {error}", file.display()).into(),
+        }
+    }
 }
 
 impl From<String> for Refusal {
@@ -154,7 +168,7 @@ impl Destination {
                 )
             }
             Destination::File(path) => match Beside::begin(path.clone()) {
-                Ok(beside) => return beside.commit(beside.file().write_all(text.as_bytes())),
+                Ok(beside) => return beside.write(text.as_bytes()),
                 Err(error) => (path, Err(error)),
             },
         };
@@ -197,6 +211,11 @@ impl Beside {
     /// The file that is being written.
     pub fn file(&self) -> &fs::File {
         &self.file
+    }
+
+    /// Writes these bytes and puts the file in its place. Returns whether all is well, having complained otherwise.
+    pub fn write(&self, bytes: &[u8]) -> bool {
+        self.commit((&self.file).write_all(bytes))
     }
 
     /// Puts the file in its place if all was written. Returns whether all is well, having

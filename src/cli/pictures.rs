@@ -111,21 +111,6 @@ impl Places<'_> {
         all.any(|(_, destination, _)| *destination == Destination::StandardOutput)
     }
 
-    /// Writes a result, which is made where it is wanted, as JSON and as pictures. Returns whether all is well, having complained otherwise.
-    pub fn write_result(
-        &self,
-        json: Option<&Destination>,
-        result: impl FnOnce() -> Value,
-    ) -> Result<bool, String> {
-        if json.is_none() && self.is_empty() {
-            return Ok(true);
-        }
-        let value = result();
-        let mut well = json.is_none_or(|json| json.write(&(value.to_string() + "\n")));
-        well &= self.write_page(|| value)?;
-        Ok(well)
-    }
-
     /// Writes a result, which is made where it is wanted, as pictures alone. Returns whether all is well, having complained otherwise.
     pub fn write_page(&self, result: impl FnOnce() -> Value) -> Result<bool, String> {
         if self.is_empty() {

@@ -2,12 +2,13 @@
 
 use super::edit::{LeftOut, certified, commit, drawn_in_words, exit_code, open, reason};
 use super::measured::Measured;
-use super::output::{self, Beside, Destination, Refusal, beside};
+use super::output::{self, Beside, Refusal};
 use super::pictures::Pictures;
-use super::{BAD_INPUT, CLOSED, input, interrupt, table};
+use super::results::Results;
+use super::{input, interrupt, table};
 use crate::places::Each as _;
 use krawl::certificate::Writer;
-use krawl::edit::{Asked, Ending, Setting};
+use krawl::edit::{Asked, Setting};
 use krawl::report::{sweep_in_words, sweep_to_csv, sweep_to_value};
 use krawl::track::{Control, Witness};
 use std::io::BufWriter;
@@ -139,9 +140,7 @@ fn drive(arguments: &Arguments, vary: &str, ends: [&str; 2]) -> Result<u8, Refus
             None => cert = None,
         }
     }
-    let json = beside([&arguments.source.file], arguments.json.as_deref())?;
-    let csv = beside([&arguments.source.file], arguments.csv.as_deref())?;
-    let pictures = arguments.pictures.places([&arguments.source.file])?;
+    let mut results = arguments.results()?;
     interrupt::flag();
     let begun = cert.map(Beside::new).transpose()?;
     let writer = |beside| Writer::new(BufWriter::new(Beside::file(beside)), &problem);
@@ -160,7 +159,7 @@ fn drive(arguments: &Arguments, vary: &str, ends: [&str; 2]) -> Result<u8, Refus
         loaded.add_left_out(&mut sweep.account, Some(&frame.points));
     }
     let last = sweep.end.as_ref().unwrap_or(&sweep.approach);
-    let (mut written, verdict) = commit(
+    let (is_written, verdict) = commit(
         (begun.as_ref(), witness),
         (&arguments.source.file, last),
         cert.filter(|_| !arguments.no_verify),
@@ -172,35 +171,26 @@ fn drive(arguments: &Arguments, vary: &str, ends: [&str; 2]) -> Result<u8, Refus
             .iter()
             .map(|frame| (&frame.points[..], &frame.objects[..]))
     };
-    written &= pictures.write_result(json.as_ref(), || {
+    results.note(is_written);
+    results.write(|| {
         let mut value = sweep_to_value(&problem, index, &sweep);
         if !measures.is_empty() {
             value["measures"] = measures.to_value(frames());
         }
         value
     })?;
-    if let Some(csv) = &csv {
-        written &= csv.write(&sweep_to_csv(&problem, index, &sweep, &measures));
+    results.write_csv(|| sweep_to_csv(&problem, index, &sweep, &measures));
+    results.print(|| {
+        let words = drawn_in_words(&problem, &session) + &sweep_in_words(&problem, index, &sweep);
+        as_turns + &words + "\n" + &measures.over(frames())
+    });
+    Ok(results.code(verdict.unwrap_or(exit_code(last))))
+}
+
+impl Arguments {
+    /// Where results go.
+    pub(super) fn results(&self) -> Result<Results<'_>, String> {
+        let named = [self.json.as_deref(), self.csv.as_deref()];
+        Results::open([&self.source.file], named, &self.pictures, self.quiet)
     }
-    let is_piped = pictures.use_standard_output()
-        || [&json, &csv]
-            .iter()
-            .any(|d| **d == Some(Destination::StandardOutput));
-    if !arguments.quiet && !is_piped {
-        let drawn = drawn_in_words(&problem, &session);
-        written &= output::print(
-            &(as_turns
-                + &drawn
-                + &sweep_in_words(&problem, index, &sweep)
-                + "\n"
-                + &measures.over(frames())),
-        );
-    }
-    Ok(match (written, &sweep.end) {
-        (false, _) => BAD_INPUT,
-        _ if verdict.is_some() => verdict.unwrap_or(CLOSED),
-        (true, Some(end)) => exit_code(end),
-        (true, None) if sweep.approach.ending != Ending::Reached => exit_code(&sweep.approach),
-        (true, None) => CLOSED,
-    })
 }

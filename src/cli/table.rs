@@ -2,17 +2,16 @@
 
 use super::edit::{drawn_in_words, exit_code, open};
 use super::input::Loaded;
-use super::output::{self, Beside, Destination, Refusal, beside};
+use super::output::{self, Beside, Refusal};
 use super::sweep::Arguments;
-use super::{BAD_INPUT, CLOSED, interrupt};
-use krawl::edit::{Asked, Edited, Ending, Session, Setting};
+use super::{CLOSED, interrupt};
+use krawl::edit::{Asked, Ending, Session, Setting};
 use krawl::interval::Interval;
 use krawl::problem::Decimal;
 use krawl::report::{Placed, account_in_words, edit_in_words, frames_to_csv};
 use krawl::system::Located;
 use std::collections::HashSet;
 use std::fs;
-use std::io::Write;
 use std::path::Path;
 
 /// The cells of a table, of which the first line names dimensions.
@@ -77,7 +76,7 @@ pub(super) fn run(arguments: &Arguments, file: &Path) -> Result<u8, Refusal> {
         .map_err(|error| format!("{}: {error}", file.display()))?;
     let (columns, problem) = (table.names.len(), &asked.problem);
     let measures = arguments.measured.of(problem)?;
-    let csv = beside([&arguments.source.file], arguments.csv.as_deref())?;
+    let mut results = arguments.results()?;
     let folder = arguments.out_folder.as_deref();
     if let Some(folder) = folder {
         fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
@@ -85,7 +84,7 @@ pub(super) fn run(arguments: &Arguments, file: &Path) -> Result<u8, Refusal> {
     let mut control = interrupt::control();
     let options = arguments.left_out.options();
     let mut session = open(problem, &arguments.source.file, &options, &mut control)?;
-    let (mut account, mut end, mut written) = (session.account(), None, true);
+    let (mut account, mut end) = (session.account(), None);
     let mut frames: Vec<(Vec<Interval>, Vec<[Interval; 3]>, Vec<Located>)> = Vec::new();
     for (number, settings) in asked.settings.chunks(columns).enumerate() {
         let row = number + 1;
@@ -93,7 +92,7 @@ pub(super) fn run(arguments: &Arguments, file: &Path) -> Result<u8, Refusal> {
         if let Err(error) = Setting::check(session.problem(), settings) {
             // What was reached so far is not lost.
             output::complain(&in_row(error.to_string()));
-            written = false;
+            results.note(false);
             break;
         }
         let edited = session.lead(settings, &mut control);
@@ -110,7 +109,7 @@ pub(super) fn run(arguments: &Arguments, file: &Path) -> Result<u8, Refusal> {
         ));
         if let Some(folder) = folder {
             let given = &asked.given[number * columns..][..columns];
-            written &= write(arguments, &loaded, (&session, given), (folder, row))?;
+            results.note(write(arguments, &loaded, (&session, given), (folder, row))?);
         }
     }
     let names: Vec<String> = asked.settings[..columns]
@@ -121,31 +120,20 @@ pub(super) fn run(arguments: &Arguments, file: &Path) -> Result<u8, Refusal> {
         .iter()
         .map(|(values, points, objects)| (&values[..], (&points[..], &objects[..])))
         .collect();
-    if let Some(csv) = &csv {
-        written &= csv.write(&frames_to_csv(problem, &names, &frames, &measures));
-    }
-    if !arguments.quiet && csv != Some(Destination::StandardOutput) {
-        let text = asked.in_words(&loaded.problem)
+    results.write_csv(|| frames_to_csv(problem, &names, &frames, &measures));
+    results.print(|| {
+        let rows = (frames.len(), table.rows.len());
+        let stop = end.as_ref().map_or(String::new(), |(row, edited)| {
+            format!("Row {row}: {}\n", edit_in_words(problem, edited))
+        });
+        asked.in_words(&loaded.problem)
             + &drawn_in_words(problem, &session)
-            + &in_words(
-                &problem.name,
-                (frames.len(), table.rows.len()),
-                &account.clause_behind(),
-            )
-            + &end
-                .as_ref()
-                .map_or(String::new(), |(row, edited): &(usize, Edited)| {
-                    format!("Row {row}: {}\n", edit_in_words(problem, edited))
-                })
+            + &in_words(&problem.name, rows, &account.clause_behind())
+            + &stop
             + &measures.over(frames.iter().map(|&(_, figure)| figure))
-            + &account_in_words(&account);
-        written &= output::print(&text);
-    }
-    Ok(match (written, &end) {
-        (false, _) => BAD_INPUT,
-        (true, Some((_, edited))) => exit_code(edited),
-        (true, None) => CLOSED,
-    })
+            + &account_in_words(&account)
+    });
+    Ok(results.code(end.map_or(CLOSED, |(_, edited)| exit_code(&edited))))
 }
 
 fn in_words(name: &str, (done, all): (usize, usize), of: &str) -> String {
@@ -172,6 +160,5 @@ fn write(
     let stem = file.file_stem().unwrap_or_default().to_string_lossy();
     let extension = file.extension().unwrap_or_default().to_string_lossy();
     let out = folder.join(format!("{stem}-{row}.{extension}"));
-    let beside = Beside::new(&out)?;
-    Ok(beside.commit(beside.file().write_all(&bytes)))
+    Ok(Beside::new(&out)?.write(&bytes))
 }

@@ -7,7 +7,6 @@ use krawl::import::Format;
 use krawl::problem::{Problem, Shape};
 use krawl::system::{Located, Placement};
 use krawl::track::Solution;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 /// Which figure is taken, and where it goes.
@@ -181,8 +180,7 @@ impl Take {
         };
         let done = self.number(problem, listed, &figure).and_then(|number| {
             let bytes = rewritten((file, sketch), problem, &figure(number)?)?;
-            let beside = Beside::new(out)?;
-            Ok(beside.commit(beside.file().write_all(&bytes)))
+            Ok(Beside::new(out)?.write(&bytes))
         });
         done.unwrap_or_else(|error| {
             output::complain(&format!("{}: is not written: {error}", out.display()));

@@ -1,9 +1,10 @@
 //! `krawl tolerance`: every dimension within its limits, and what that does to the figure.
 
 use super::measured::Measured;
-use super::output::{self, Destination, beside};
+use super::output::{self, Refusal};
 use super::pictures::Pictures;
-use super::{BAD_INPUT, CLOSED, STOPPED, input, interrupt};
+use super::results::Results;
+use super::{CLOSED, STOPPED, input, interrupt};
 use krawl::blocks::Account;
 use krawl::complete::{self, Progress};
 use krawl::edit::Limits;
@@ -74,15 +75,14 @@ pub struct Arguments {
 }
 
 /// Runs the verb and returns the exit code.
-pub fn run(arguments: &Arguments) -> Result<u8, String> {
+pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
     arguments.time.begin();
-    let shown = arguments.source.file.display();
-    let (problem, made) = input::whole_of(&arguments.source.file, &arguments.source.load()?)?;
+    let file = &arguments.source.file;
+    let (problem, made) = input::whole_of(file, &arguments.source.load()?)?;
     let made = made.with_other_numbers();
     output::say_if_signs_are_not_looked_at(&problem);
-    let json = beside([&arguments.source.file], arguments.json.as_deref())?;
-    let csv = beside([&arguments.source.file], arguments.csv.as_deref())?;
-    let pictures = arguments.pictures.places([&arguments.source.file])?;
+    let named = [arguments.json.as_deref(), arguments.csv.as_deref()];
+    let mut results = Results::open([file], named, &arguments.pictures, arguments.quiet)?;
     let default = arguments.default.as_deref().map(deviations).transpose()?;
     let named = arguments.tolerance.iter().map(|text| {
         let (name, value) = text
@@ -92,16 +92,14 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
     });
     let named = named.collect::<Result<Vec<_>, String>>()?;
     arguments.measured.of_points(&problem)?;
-    let in_file = |error: String| format!("{shown}: {error}");
-    let limits = limits(&problem, &named, default.as_ref()).map_err(in_file)?;
+    let limits = limits(&problem, &named, default.as_ref());
+    let limits = limits.map_err(|error| format!("{}: {error}", file.display()))?;
     if arguments.all {
-        if !pictures.is_empty() {
-            return Err(
-                "pictures are of the figure drawn, and not of all: leave out --all or them"
-                    .to_owned(),
-            );
+        if !results.pictures.is_empty() {
+            let what = "pictures are of the figure drawn, and not of all: leave out --all or them";
+            return Err(what.to_owned().into());
         }
-        return run_all(arguments, (&problem, &made), &limits, json.as_ref());
+        return run_all(arguments, (&problem, &made), &limits, results);
     }
     let mut control = interrupt::control();
     let study = study(
@@ -111,39 +109,25 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
         &Options::certified(),
         &mut control,
     );
-    let mut study = match study {
-        Err(_) if control.is_interrupted() => {
-            output::complain(INTERRUPTED);
-            return Ok(STOPPED);
-        }
-        study => study.map_err(in_file)?,
-    };
+    let mut study = study.map_err(|error| Refusal::of_run(file, &error, &control))?;
     // What was left out of a sketch, and what is held, belongs to what is said.
     study.account.join(&made);
-    let mut written = true;
-    if let Some(csv) = &csv {
-        written &= csv.write(&tolerances_to_csv(&problem, &study));
-    }
-    written &= pictures.write_result(json.as_ref(), || tolerances_to_value(&problem, &study))?;
-    let standard = Some(Destination::StandardOutput);
-    let elsewhere = json == standard || csv == standard || pictures.use_standard_output();
-    if elsewhere && !arguments.quiet {
-        output::complain(&tolerances_in_words(&problem, &study));
-    } else if !arguments.quiet {
-        written &= output::print(&tolerances_to_table(&problem, &study));
-    }
-    Ok(if written { CLOSED } else { BAD_INPUT })
+    results.write_csv(|| tolerances_to_csv(&problem, &study));
+    results.write(|| tolerances_to_value(&problem, &study))?;
+    results.print_or_say(
+        || tolerances_to_table(&problem, &study),
+        || tolerances_in_words(&problem, &study),
+    );
+    Ok(results.code(CLOSED))
 }
-
-const INTERRUPTED: &str = "interrupted before anything was proved";
 
 /// Looks for every figure.
 fn run_all(
     arguments: &Arguments,
     (problem, made): (&Problem, &Account),
     limits: &[Limits],
-    json: Option<&Destination>,
-) -> Result<u8, String> {
+    mut results: Results,
+) -> Result<u8, Refusal> {
     let mut control = interrupt::control();
     let line = ProgressLine::new(!arguments.quiet, "");
     let begin = Instant::now();
@@ -158,28 +142,16 @@ fn run_all(
     let options = (&Options::certified(), &search);
     let set = study_all(problem, limits, &texts, options, &mut control);
     line.clear();
-    let mut set = match set {
-        Err(_) if control.is_interrupted() => {
-            output::complain(INTERRUPTED);
-            return Ok(STOPPED);
-        }
-        set => set.map_err(|error| format!("{}: {error}", arguments.source.file.display()))?,
-    };
+    let file = &arguments.source.file;
+    let mut set = set.map_err(|error| Refusal::of_run(file, &error, &control))?;
     set.account.join(made);
-    let mut written = true;
-    if let Some(json) = json {
-        written &= json.write(&format!("{}\n", tolerance_set_to_value(problem, &set)));
-    }
-    if !arguments.quiet && json == Some(&Destination::StandardOutput) {
-        output::complain(&tolerance_set_in_words(problem, &set));
-    } else if !arguments.quiet {
-        written &= output::print(&tolerance_set_to_table(problem, &set));
-    }
-    Ok(match written {
-        false => BAD_INPUT,
-        true if set.undecided.is_empty() && !control.is_interrupted() => CLOSED,
-        true => STOPPED,
-    })
+    results.write(|| tolerance_set_to_value(problem, &set))?;
+    results.print_or_say(
+        || tolerance_set_to_table(problem, &set),
+        || tolerance_set_in_words(problem, &set),
+    );
+    let is_decided = set.undecided.is_empty() && !control.is_interrupted();
+    Ok(results.code(if is_decided { CLOSED } else { STOPPED }))
 }
 
 /// How far down and up: `0.1` is both.

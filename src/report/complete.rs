@@ -2,7 +2,7 @@
 
 use super::columns::{DIGITS, write_digits, written};
 use super::drawing::{Drawing, all_names, names};
-use super::json::{Points, text, value};
+use super::json::{Beside, Points, beside, text, value};
 use super::objects::Objects;
 use super::supposed::supposed;
 use super::table::write_objects;
@@ -13,6 +13,7 @@ use crate::constraint::{Symmetry, symmetry};
 use crate::interval::Interval;
 use crate::problem::{Object, Problem, Shape, counted, either, list};
 use crate::track::{Mode, Signed};
+use serde_json::{Map, Value, json};
 use std::fmt::Write;
 
 /// Of the parts that a sketch falls apart into, so many are shown.
@@ -42,6 +43,18 @@ pub fn complete_to_json(problem: &Problem, result: &Complete) -> String {
     text(&Document::new(problem, result))
 }
 
+/// The same, with what was asked for beside it, under these keys.
+pub fn complete_to_json_with(
+    problem: &Problem,
+    result: &Complete,
+    more: impl IntoIterator<Item = Beside>,
+) -> String {
+    text(&Document {
+        beside: beside(more),
+        ..Document::new(problem, result)
+    })
+}
+
 /// What [`complete_to_json`] writes, as a value in memory.
 pub fn complete_to_value(problem: &Problem, result: &Complete) -> serde_json::Value {
     value(&Document::new(problem, result))
@@ -59,17 +72,19 @@ impl<'a> Document<'a> {
             parts: result
                 .parts
                 .iter()
-                .map(|part| Piece {
-                    points: all_names(&part.problem),
-                    status: part.result.status.name(),
-                    solutions: part.result.solutions.len(),
-                    boxes: part.result.boxes,
+                .map(|part| {
+                    json!({
+                        "points": all_names(&part.problem),
+                        "status": part.result.status.name(),
+                        "solutions": part.result.solutions.len(),
+                        "boxes": part.result.boxes,
+                    })
                 })
                 .collect(),
             independent: &result.choices,
             decided_first: result.first_choice.as_ref(),
-            tested: result.tested.as_ref().map(Counts::new),
-            signed: result.signed.map(Signs::from),
+            tested: result.tested.as_ref(),
+            signed: result.signed.map(signs),
             solutions: result
                 .solutions
                 .iter()
@@ -85,10 +100,8 @@ impl<'a> Document<'a> {
             undecided: result
                 .undecided
                 .iter()
-                .map(|part| Undecided {
-                    reason: why(part.why),
-                    parts: part.count,
-                    share: part.share,
+                .map(|part| {
+                    json!({"reason": why(part.why), "parts": part.count, "share": part.share})
                 })
                 .collect(),
             boxes: result.boxes,
@@ -99,6 +112,7 @@ impl<'a> Document<'a> {
             complex: result.complex,
             turned: &result.turned,
             plan: names(problem, &result.plan),
+            beside: Map::new(),
         }
     }
 }
@@ -113,17 +127,17 @@ struct Document<'a> {
     method: &'static str,
     count: Option<u64>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    parts: Vec<Piece<'a>>,
+    parts: Vec<Value>,
     #[serde(skip_serializing_if = "<[_]>::is_empty")]
     independent: &'a [Choice],
     #[serde(skip_serializing_if = "Option::is_none")]
     decided_first: Option<&'a Choice>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    tested: Option<Counts<'a>>,
+    tested: Option<&'a Tested>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    signed: Option<Signs>,
+    signed: Option<Value>,
     solutions: Vec<Entry<'a>>,
-    undecided: Vec<Undecided>,
+    undecided: Vec<Value>,
     boxes: u64,
     seconds: f64,
     seconds_left: Option<f64>,
@@ -135,6 +149,8 @@ struct Document<'a> {
     #[serde(skip_serializing_if = "<[_]>::is_empty")]
     turned: &'a [String],
     plan: Vec<&'a str>,
+    #[serde(flatten)]
+    beside: Map<String, Value>,
 }
 
 #[derive(serde::Serialize)]
@@ -154,75 +170,15 @@ fn figure(result: &Complete, index: usize) -> &[LeftOut] {
     tested.map_or(&[], |tested| &tested.figures[index])
 }
 
-/// What came of the figures that have the constraints used.
-#[derive(serde::Serialize)]
-pub(super) struct Counts<'a> {
-    used: usize,
-    of: usize,
-    found: Option<u64>,
-    met: usize,
-    missed: usize,
-    missed_by: Option<f64>,
-    within: Option<f64>,
-    undecided: usize,
-    left_out: &'a [String],
-    #[serde(skip_serializing_if = "<[_]>::is_empty")]
-    added: &'a [String],
-}
-
-impl<'a> Counts<'a> {
-    pub(super) fn new(tested: &'a Tested) -> Self {
-        Counts {
-            used: tested.used,
-            of: tested.all,
-            found: tested.found,
-            met: tested.met,
-            missed: tested.missed,
-            missed_by: tested.by.is_finite().then_some(tested.by),
-            within: (tested.met > 0).then_some(tested.within),
-            undecided: tested.undecided,
-            left_out: &tested.left_out,
-            added: &tested.added,
-        }
-    }
-}
-
 /// What came of the figures by the signs that are asked for.
-#[derive(serde::Serialize)]
-pub(super) struct Signs {
-    asked: usize,
-    parts_given_up: u64,
-    wrong: u64,
-    mirrored: usize,
-    undecided: u64,
-}
-
-impl From<Signed> for Signs {
-    fn from(signed: Signed) -> Self {
-        Signs {
-            asked: signed.asked,
-            parts_given_up: signed.cut,
-            wrong: signed.wrong,
-            mirrored: signed.mirrored,
-            undecided: signed.undecided,
-        }
-    }
-}
-
-/// A part of a problem that falls apart.
-#[derive(serde::Serialize)]
-struct Piece<'a> {
-    points: Vec<&'a str>,
-    status: &'static str,
-    solutions: usize,
-    boxes: u64,
-}
-
-#[derive(serde::Serialize)]
-struct Undecided {
-    reason: &'static str,
-    parts: u64,
-    share: f64,
+pub(super) fn signs(signed: Signed) -> Value {
+    json!({
+        "asked": signed.asked,
+        "parts_given_up": signed.cut,
+        "wrong": signed.wrong,
+        "mirrored": signed.mirrored,
+        "undecided": signed.undecided,
+    })
 }
 
 pub(super) fn why(why: Why) -> &'static str {
@@ -608,30 +564,28 @@ pub(super) fn counted_or_many(count: Option<u64>, what: &str) -> String {
 pub(super) fn counted_once(problem: &Problem, symmetry: Symmetry) -> (&'static str, &'static str) {
     let of_numbers = |object: &Object| matches!(object.shape, Shape::Number { .. });
     let has_numbers = problem.objects.iter().any(of_numbers);
-    match symmetry {
-        // The same figure with other numbers is another solution.
-        _ if problem.points.is_empty() => ("", "no two are the same"),
-        Symmetry::Isometries if has_numbers => (
-            " up to rigid motions and reflections",
-            "no two have the same numbers and are congruent, even up to reflection",
-        ),
-        Symmetry::Motions if has_numbers => (
-            " up to rigid motions",
-            "no two have the same numbers and are the same figure moved",
-        ),
-        Symmetry::Identity if has_numbers => (
-            " in the coordinates of the file",
-            "no two are the same figure with the same numbers",
-        ),
+    let (up_to, different, with_numbers) = match symmetry {
+        _ if problem.points.is_empty() => return ("", "no two are the same"),
         Symmetry::Isometries => (
             " up to rigid motions and reflections",
             "no two are congruent, even up to reflection",
+            "no two have the same numbers and are congruent, even up to reflection",
         ),
-        Symmetry::Motions => (" up to rigid motions", "no two are the same figure moved"),
+        Symmetry::Motions => (
+            " up to rigid motions",
+            "no two are the same figure moved",
+            "no two have the same numbers and are the same figure moved",
+        ),
         Symmetry::Identity => (
             " in the coordinates of the file",
             "no two are the same figure",
+            "no two are the same figure with the same numbers",
         ),
+    };
+    // The same figure with other numbers is another solution.
+    match has_numbers {
+        true => (up_to, with_numbers),
+        false => (up_to, different),
     }
 }
 

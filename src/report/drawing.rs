@@ -7,7 +7,7 @@ use crate::places::Each as _;
 use crate::problem::{Decimal, Problem, Target};
 use crate::system::{Gauge, Placement};
 use serde::{Deserialize, Serialize};
-use serde_json::Value;
+use serde_json::{Value, json};
 
 /// The keys that results of all verbs with figures have in common (docs/using/programs.md, "The problem").
 #[derive(Serialize)]
@@ -21,19 +21,13 @@ pub(super) struct Drawing<'a> {
     source: &'a str,
     names: Vec<&'a str>,
     reference: Vec<&'a str>,
-    frame: Option<Frame>,
+    frame: Option<Value>,
     sketch: Points<'a, [f64; 3]>,
     #[serde(skip_serializing_if = "Objects::is_empty")]
     sketch_objects: Objects<'a, f64>,
     constraints: Vec<Constraint<'a>>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     objects: Vec<Object<'a>>,
-}
-
-#[derive(Serialize)]
-struct Frame {
-    origin: Vec<f64>,
-    axes: Vec<Vec<f64>>,
 }
 
 /// A constraint.
@@ -62,7 +56,7 @@ impl<'a> Drawing<'a> {
         let placement = Gauge::new(problem).placement(problem).ok();
         Drawing {
             reference: names(problem, &problem.homotopy.reference),
-            frame: placement.map(|placement| Frame::new(&placement, problem.dimension)),
+            frame: placement.map(|placement| frame(&placement, problem.dimension)),
             ..Self::in_place(verb, problem)
         }
     }
@@ -115,14 +109,10 @@ impl<'a> Drawing<'a> {
     }
 }
 
-impl Frame {
-    fn new(placement: &Placement, d: usize) -> Self {
-        let middles = |v: &[Interval; 3]| v[..d].iter().map(|x| x.mid() + 0.0).collect();
-        Frame {
-            origin: middles(&placement.origin),
-            axes: placement.axes[..d].iter().map(middles).collect(),
-        }
-    }
+fn frame(placement: &Placement, d: usize) -> Value {
+    let middles = |v: &[Interval; 3]| v[..d].iter().map(|x| x.mid() + 0.0).collect();
+    let axes: Vec<Vec<f64>> = placement.axes[..d].iter().map(middles).collect();
+    json!({"origin": middles(&placement.origin), "axes": axes})
 }
 
 /// The names of points, by number.

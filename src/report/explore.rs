@@ -12,6 +12,7 @@ use crate::places::{Each as _, array};
 use crate::problem::{Problem, Published, counted};
 use crate::track::{Outcome, Trace};
 use serde::Serialize;
+use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
@@ -317,7 +318,7 @@ struct Document<'a> {
     undecided: u64,
     ways: usize,
     all_real: Option<usize>,
-    published: Vec<Beside<'a>>,
+    published: Vec<Value>,
     seconds: f64,
 }
 
@@ -335,7 +336,7 @@ struct Entry<'a> {
 #[derive(Serialize)]
 struct Path<'a> {
     status: &'static str,
-    from: Option<Origin>,
+    from: Option<Value>,
     sketch: Points<'a, [f64; 3]>,
     bend: String,
     bend_coefficient: String,
@@ -344,19 +345,6 @@ struct Path<'a> {
     folds: Option<Vec<WrittenFold<'a>>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     samples: Option<Vec<WrittenSample<'a>>>,
-}
-
-#[derive(Serialize)]
-struct Origin {
-    solution: u64,
-    branch: u64,
-}
-
-#[derive(Serialize)]
-struct Beside<'a> {
-    method: &'a str,
-    solutions: usize,
-    seconds: Option<f64>,
 }
 
 /// The result as one line of JSON; docs/using/explore.md and docs/schema/explore.schema.json describe it.
@@ -389,7 +377,7 @@ fn document<'a>(explored: &'a Explored) -> Document<'a> {
                 status: path.end.name(),
                 from: sketch
                     .from
-                    .map(|(solution, branch)| Origin { solution, branch }),
+                    .map(|(solution, branch)| json!({"solution": solution, "branch": branch})),
                 sketch: Points(
                     problem,
                     sketch
@@ -435,11 +423,9 @@ fn document<'a>(explored: &'a Explored) -> Document<'a> {
             .published
             .iter()
             .filter_map(|published| {
-                Some(Beside {
-                    method: &published.method,
-                    solutions: published.solutions?,
-                    seconds: published.seconds,
-                })
+                let solutions = published.solutions?;
+                let (method, seconds) = (&published.method, published.seconds);
+                Some(json!({"method": method, "solutions": solutions, "seconds": seconds}))
             })
             .collect(),
         seconds: contents.state.seconds,

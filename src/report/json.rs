@@ -1,20 +1,18 @@
 //! Results for programs (docs/using/programs.md, docs/schema/result.schema.json).
 
-use super::complete::{Counts, Signs};
+use super::complete::signs;
 use super::drawing::{Drawing, names};
-use super::edit::alone_to_value;
 use super::marks::Marks;
 use super::objects::Objects;
 use super::table::verdict;
-use crate::complete::{Among, Tested};
-use crate::edit::Alone;
+use crate::complete::Tested;
 use crate::interval::Interval;
 use crate::places::Each as _;
-use crate::problem::{Decimal, Problem};
+use crate::problem::Problem;
 use crate::track::{Mode, Options, Outcome, Preset, Solution, Status, Trace};
 use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
-use serde_json::Value;
+use serde_json::{Map, Value, json};
 
 /// The version of the format: it grows when a key changes its meaning or goes; new keys alone do not
 /// change it.
@@ -58,19 +56,10 @@ impl<'a> Run<'a> {
         text(&Document::new(self))
     }
 
-    /// The same, with how many of all figures the path has, where that is known, what one dimension can do alone, where the path has
-    /// no figure, what is measured of the solutions, and these to many digits.
-    pub fn to_json_among(
-        &self,
-        among: Option<Among>,
-        alone: &[Alone],
-        (measures, digits): (Option<Value>, Option<Value>),
-    ) -> String {
+    /// The same, with what was asked for beside it, under these keys.
+    pub fn to_json_with(&self, more: impl IntoIterator<Item = Beside>) -> String {
         text(&Document {
-            of_all: among.map(|among| among.all),
-            alone: (!alone.is_empty()).then(|| alone_to_value(alone)),
-            measures,
-            digits,
+            beside: beside(more),
             ..Document::new(self)
         })
     }
@@ -79,6 +68,17 @@ impl<'a> Run<'a> {
     pub fn to_value(&self) -> Value {
         value(&Document::new(self))
     }
+}
+
+/// What was asked for beside a result, if it was, and its key.
+pub type Beside = (&'static str, Option<Value>);
+
+/// The keys of what was asked for.
+pub(super) fn beside(more: impl IntoIterator<Item = Beside>) -> Map<String, Value> {
+    let asked = more
+        .into_iter()
+        .filter_map(|(key, value)| Some((key.to_owned(), value?)));
+    asked.collect()
 }
 
 /// A result as one line of JSON.
@@ -97,18 +97,18 @@ struct Document<'a> {
     drawing: Drawing<'a>,
     mode: &'static str,
     space: &'static str,
-    options: WrittenOptions<'a>,
+    options: Value,
     status: &'static str,
     reason: Option<&'a str>,
     stopped_kind: Option<&'static str>,
     verdict: String,
     #[serde(skip_serializing_if = "Option::is_none")]
-    tested: Option<Counts<'a>>,
+    tested: Option<&'a Tested>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    signed: Option<Signs>,
+    signed: Option<Value>,
     #[serde(skip_serializing_if = "Option::is_none")]
     ends: Option<Vec<End<'a>>>,
-    orientations: Vec<WrittenSet<'a>>,
+    orientations: Vec<Value>,
     solutions: Vec<Entry<'a>>,
     folds: Vec<WrittenFold<'a>>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -116,42 +116,13 @@ struct Document<'a> {
     steps: usize,
     rejected: usize,
     plan_changes: usize,
-    driving: Driving,
+    driving: Value,
     length: f64,
     t_range: [f64; 2],
     seconds: f64,
     switched_on: &'a [String],
-    #[serde(skip_serializing_if = "Option::is_none")]
-    of_all: Option<u64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    alone: Option<Value>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    measures: Option<Value>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    digits: Option<Value>,
-}
-
-#[derive(Serialize)]
-struct WrittenOptions<'a> {
-    preset: &'static str,
-    reverse: bool,
-    bend: Option<[&'a str; 2]>,
-    bend_coefficient: Exact<'a>,
-    max_step: Option<f64>,
-    tube_radius: Option<f64>,
-    tolerance: Option<f64>,
-    alpha: f64,
-    extended: bool,
-    max_steps: usize,
-}
-
-/// A decimal as a text, so that it stays exact.
-struct Exact<'a>(&'a Decimal);
-
-#[derive(Serialize)]
-struct Driving {
-    average: f64,
-    max: usize,
+    #[serde(flatten)]
+    beside: Map<String, Value>,
 }
 
 #[derive(Serialize)]
@@ -168,13 +139,6 @@ struct Entry<'a> {
     signs: Vec<i8>,
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     degenerate: bool,
-}
-
-/// Joined points and the sign of their orientation in the sketch.
-#[derive(Serialize)]
-struct WrittenSet<'a> {
-    points: Vec<&'a str>,
-    sketch: i8,
 }
 
 #[derive(Serialize)]
@@ -217,22 +181,20 @@ impl<'a> Document<'a> {
         let marks = Marks::new(problem);
         let sets = marks.sets.iter().zip(&marks.signs);
         Document {
+            // Joined points and the sign of their orientation in the sketch.
             orientations: sets
-                .map(|(set, &sketch)| WrittenSet {
-                    points: names(problem, set),
-                    sketch,
-                })
+                .map(|(set, sketch)| json!({"points": names(problem, set), "sketch": sketch}))
                 .collect(),
             drawing: Drawing::new("solve", problem),
             mode: outcome.mode.name(),
             space: outcome.space.name(),
-            options: WrittenOptions::new(problem, options),
+            options: written_options(problem, options),
             status,
             reason: stop.map(|stop| stop.text.as_str()),
             stopped_kind: stop.map(|stop| stop.kind.name()),
             verdict: verdict(problem, outcome, tested),
-            tested: tested.map(Counts::new),
-            signed: outcome.signed.map(Signs::from),
+            tested,
+            signed: outcome.signed.map(signs),
             ends: ends(problem, &outcome.status),
             solutions: outcome
                 .solutions
@@ -244,18 +206,12 @@ impl<'a> Document<'a> {
             steps: outcome.steps,
             rejected: outcome.rejected,
             plan_changes: outcome.plan_changes,
-            driving: Driving {
-                average: outcome.driving.average,
-                max: outcome.driving.max,
-            },
+            driving: json!({"average": outcome.driving.average, "max": outcome.driving.max}),
             length: outcome.length,
             t_range: [outcome.t_range.0, outcome.t_range.1],
             seconds: outcome.seconds,
             switched_on: &outcome.switched_on,
-            of_all: None,
-            alone: None,
-            measures: None,
-            digits: None,
+            beside: Map::new(),
         }
     }
 }
@@ -267,14 +223,7 @@ struct End<'a> {
     kind: &'static str,
     reason: &'a str,
     #[serde(skip_serializing_if = "Option::is_none")]
-    away: Option<WrittenAway<'a>>,
-}
-
-/// A point that goes to infinity.
-#[derive(Serialize)]
-struct WrittenAway<'a> {
-    point: &'a str,
-    distance: [f64; 2],
+    away: Option<Value>,
 }
 
 fn ends<'a>(problem: &'a Problem, status: &'a Status) -> Option<Vec<End<'a>>> {
@@ -285,10 +234,10 @@ fn ends<'a>(problem: &'a Problem, status: &'a Status) -> Option<Vec<End<'a>>> {
         t: [end.t.0, end.t.1],
         kind: end.kind.name(),
         reason: &end.reason,
-        away: end.away.map(|away| WrittenAway {
-            point: &problem.points[away.point].name,
-            distance: [away.distance.0, away.distance.1],
-        }),
+        // A point that goes to infinity.
+        away: end.away.map(
+            |away| json!({"point": problem.points[away.point].name, "distance": away.distance}),
+        ),
     });
     Some(all.collect())
 }
@@ -325,25 +274,24 @@ pub(super) fn written_samples<'a>(
         .collect()
 }
 
-impl<'a> WrittenOptions<'a> {
-    fn new(problem: &'a Problem, options: &Options) -> Self {
-        let bend = problem.bend().map(|bend| &problem.distances[bend]);
-        WrittenOptions {
-            preset: match options.preset {
-                Preset::Default => "default",
-                Preset::Paper => "paper",
-            },
-            reverse: options.reverse,
-            bend: bend.map(|bend| bend.points.each(|p| problem.points[p].name.as_str())),
-            bend_coefficient: Exact(&problem.homotopy.bend_coefficient),
-            max_step: options.max_step,
-            tube_radius: options.tube_radius,
-            tolerance: options.tolerance,
-            alpha: options.alpha,
-            extended: options.extended,
-            max_steps: options.max_steps,
-        }
-    }
+fn written_options(problem: &Problem, options: &Options) -> Value {
+    let bend = problem.bend().map(|bend| &problem.distances[bend]);
+    json!({
+        "preset": match options.preset {
+            Preset::Default => "default",
+            Preset::Paper => "paper",
+        },
+        "reverse": options.reverse,
+        "bend": bend.map(|bend| bend.points.each(|p| problem.points[p].name.as_str())),
+        // As a text, so that it stays exact.
+        "bend_coefficient": problem.homotopy.bend_coefficient.to_string(),
+        "max_step": options.max_step,
+        "tube_radius": options.tube_radius,
+        "tolerance": options.tolerance,
+        "alpha": options.alpha,
+        "extended": options.extended,
+        "max_steps": options.max_steps,
+    })
 }
 
 impl<'a> Entry<'a> {
@@ -398,11 +346,5 @@ impl<C: Coordinate> Serialize for Points<'_, [C; 3]> {
             map.serialize_entry(&point.name, &place)?;
         }
         map.end()
-    }
-}
-
-impl Serialize for Exact<'_> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_str(self.0)
     }
 }

@@ -40,7 +40,8 @@ pub use blocks::BlockRuns;
 pub use comparison::comparisons_to_csv;
 pub use comparison::{Compared, comparison_to_table, comparisons_to_json};
 pub use complete::{
-    among_in_words, complete_to_json, complete_to_table, complete_to_value, cover_theorem,
+    among_in_words, complete_to_json, complete_to_json_with, complete_to_table, complete_to_value,
+    cover_theorem,
 };
 pub use complex::{complex_set_theorem, complex_to_json, complex_to_table};
 pub use conformers::{conformers_to_table, conformers_to_value};
@@ -58,7 +59,7 @@ pub use figures::{
     Listed, figures_in_words, figures_to_summary, figures_to_table, figures_to_value,
     first_in_words,
 };
-pub use json::{JSON_VERSION, Run};
+pub use json::{Beside, JSON_VERSION, Run};
 pub use measured::{Measures, Placed};
 pub use motion::{motion_in_words, motion_to_csv, motion_to_table, motion_to_value};
 #[cfg(feature = "cli")]

@@ -2,6 +2,7 @@
 
 use crate::common::certificate;
 use crate::common::mixed::Spec;
+use crate::common::random::Dice;
 use krawl::certificate::{Outcome, Settings, verify};
 use krawl::track::{Options, Status};
 
@@ -9,13 +10,8 @@ use krawl::track::{Options, Status};
 /// last tubes before an end where they do not pass.
 #[test]
 fn open_paths_are_verified() {
-    let mut state = 5u64;
-    let mut below = |n: usize| {
-        state = state
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        (state >> 33) as usize % n
-    };
+    let mut dice = Dice(5);
+    let mut below = |n: usize| dice.below(n);
     let (mut open, mut faults) = (0, Vec::new());
     for k in 0..400 {
         let Some((_, problem)) = Spec::random(2 + k % 2, &mut below) else {

@@ -1,7 +1,8 @@
 //! Covers of searches for all solutions: verified by the check, and damaged ones refused.
 
 use crate::common::edits::Random;
-use crate::common::random::{recipe, same_each_time};
+use crate::common::random::{Dice, recipe, same_each_time};
+use crate::common::shipped;
 use krawl::certificate::cover::{Cover, CoverVerdict, Kind, Left, Mark, Radius, verify_cover};
 use krawl::complete::{Complete, Options, Status, all};
 use krawl::problem::{Problem, Target};
@@ -33,10 +34,6 @@ fn read(cover: &Cover, at: usize) -> Option<(Mark, usize)> {
 
 fn proves_all(verdict: &CoverVerdict) -> bool {
     verdict.flaw.is_none() && verdict.undecided == 0
-}
-
-fn shipped(name: &str) -> Problem {
-    Problem::read(format!("problems/{name}.toml")).unwrap()
 }
 
 #[test]
@@ -656,14 +653,12 @@ fn another_problem_or_plan_is_noticed() {
 #[test]
 fn any_byte_may_be_wrong() {
     let (result, bytes) = searched(&shipped("octahedron"));
-    let mut state = 7u64;
+    let mut dice = Dice(7);
     for _ in 0..400 {
-        state = state
-            .wrapping_mul(6364136223846793005)
-            .wrapping_add(1442695040888963407);
+        let bits = dice.bits();
         let mut other = bytes.clone();
-        let at = (state >> 33) as usize % other.len();
-        other[at] ^= 1 << ((state >> 20) % 8);
+        let at = (bits >> 33) as usize % other.len();
+        other[at] ^= 1 << ((bits >> 20) % 8);
         // It is refused, or harmless: never another number of solutions of the same problem.
         if let Ok(verdict) = verify_cover(&other)
             && proves_all(&verdict)

@@ -4,6 +4,7 @@
 use crate::common::edits::Random;
 use crate::common::mixed::Spec;
 use crate::common::sketches::{ARC, LEG, PLATE, apollonius_text, isosceles_text};
+use crate::common::wanted;
 use krawl::certificate::cover::coordinates::{
     Block, Case, Change, CoordinateCover, Half, Image, Mark,
 };
@@ -574,11 +575,10 @@ fn more_random_problems_in_space_verify() {
 #[test]
 #[ignore = "minutes: KRAWL_COUNT problems (1000), those of KRAWL_SEED"]
 fn many_random_problems_verify() {
-    let number = |name, default| std::env::var(name).map_or(default, |x| x.parse().unwrap());
     let [complete, verified] = mixed(
-        number("KRAWL_DIMENSION", 2) as usize,
-        number("KRAWL_COUNT", 1000) as usize,
-        number("KRAWL_SEED", 1),
+        wanted("KRAWL_DIMENSION", 2),
+        wanted("KRAWL_COUNT", 1000),
+        wanted("KRAWL_SEED", 1),
         20_000,
     );
     println!("{verified} of {complete}");

@@ -33,35 +33,44 @@ pub struct Case {
     pub length: String,
 }
 
+/// So many places, in hundredths, between −1 and 1.
+pub fn places(random: &mut Random, dimension: usize, points: usize) -> Vec<Vec<i64>> {
+    let mut place = || -> Vec<i64> {
+        let axes = (0..dimension).map(|_| random.between(-100.0, 100.0) as i64);
+        axes.collect()
+    };
+    (0..points).map(|_| place()).collect()
+}
+
+/// The edges of a random graph that is rigid, by Henneberg's steps: a point joined to D others, or put on a distance and joined to
+/// D − 1 more.
+pub fn rigid(random: &mut Random, dimension: usize, points: usize) -> Vec<[usize; 2]> {
+    let mut edges: Vec<[usize; 2]> = (0..dimension)
+        .flat_map(|b| (0..b).map(move |a| [a, b]))
+        .collect();
+    for p in dimension..points {
+        let mut ends = Vec::new();
+        if random.below(2) == 0 && p > dimension {
+            ends.extend(edges.swap_remove(random.below(edges.len())));
+        }
+        let wanted = dimension + usize::from(!ends.is_empty());
+        while ends.len() < wanted {
+            let q = random.below(p);
+            if !ends.contains(&q) {
+                ends.push(q);
+            }
+        }
+        edges.extend(ends.into_iter().map(|q| [q, p]));
+    }
+    edges
+}
+
 /// A random well-constrained figure of so many points that meets its dimensions exactly (they are given by
 /// their squares), with one dimension to be multiplied by a factor between these.
 pub fn case(random: &mut Random, dimension: usize, points: usize, factor: (f64, f64)) -> Case {
     loop {
-        let places: Vec<Vec<i64>> = (0..points)
-            .map(|_| {
-                (0..dimension)
-                    .map(|_| random.between(-100.0, 100.0) as i64)
-                    .collect()
-            })
-            .collect();
-        // Henneberg's steps: a point joined to D others, or put on a distance and joined to D − 1 more.
-        let mut edges: Vec<[usize; 2]> = (0..dimension)
-            .flat_map(|b| (0..b).map(move |a| [a, b]))
-            .collect();
-        for p in dimension..points {
-            let mut ends = Vec::new();
-            if random.below(2) == 0 && p > dimension {
-                ends.extend(edges.swap_remove(random.below(edges.len())));
-            }
-            let wanted = dimension + usize::from(!ends.is_empty());
-            while ends.len() < wanted {
-                let q = random.below(p);
-                if !ends.contains(&q) {
-                    ends.push(q);
-                }
-            }
-            edges.extend(ends.into_iter().map(|q| [q, p]));
-        }
+        let places = places(random, dimension, points);
+        let edges = rigid(random, dimension, points);
         let name = |p: usize| format!("p{p}");
         let mut builder = Problem::build("random", dimension);
         for (p, place) in places.iter().enumerate() {

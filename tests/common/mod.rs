@@ -14,6 +14,8 @@ pub mod sketches;
 
 use krawl::problem::Problem;
 use krawl::track::{self, Control, Mode, Options, Outcome, Solution, Space, Status};
+use std::fmt::Debug;
+use std::str::FromStr;
 
 /// The shipped problems with short paths, and how many solutions they have on the path, all of
 /// them different up to reflection. The first three counts are published (RR 8705, tables 1 and
@@ -49,6 +51,11 @@ pub fn arguments(way: &Options) -> [&'static str; 4] {
     ["--mode", mode, "--space", space]
 }
 
+/// A number that the environment says, such as how often a long test tries, or this one.
+pub fn wanted<T: FromStr<Err: Debug>>(name: &str, otherwise: T) -> T {
+    std::env::var(name).map_or(otherwise, |text| text.parse().unwrap())
+}
+
 /// A problem from `problems/`.
 pub fn shipped(name: &str) -> Problem {
     Problem::read(format!("problems/{name}.toml")).unwrap()
@@ -66,6 +73,18 @@ pub fn turning_triangle() -> Problem {
         .distance("a", "c", "1.2")
         .finish()
         .unwrap()
+}
+
+/// The third corner of a triangle on a side, on its left.
+pub fn third(p: [f64; 2], q: [f64; 2], from_p: f64, from_q: f64) -> [f64; 2] {
+    let to = [q[0] - p[0], q[1] - p[1]];
+    let d = to[0].hypot(to[1]);
+    let along = (from_p * from_p - from_q * from_q + d * d) / (2.0 * d);
+    let height = (from_p * from_p - along * along).sqrt();
+    [
+        p[0] + (to[0] * along - to[1] * height) / d,
+        p[1] + (to[1] * along + to[0] * height) / d,
+    ]
 }
 
 /// The result of a run.

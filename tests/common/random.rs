@@ -2,7 +2,8 @@
 
 use krawl::problem::{Problem, ProblemError};
 use proptest::prelude::*;
-use proptest::test_runner::{RngAlgorithm, TestRng};
+use proptest::strategy::ValueTree;
+use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 
 /// How to build a problem. Numbers are taken modulo the number of choices that there are, so that
 /// every recipe means something and shrinks well.
@@ -26,6 +27,26 @@ pub fn same_each_time() -> TestRng {
     TestRng::deterministic_rng(RngAlgorithm::ChaCha)
 }
 
+/// A linear congruence, of which the low bits are not random.
+pub struct Dice(pub u64);
+
+impl Dice {
+    pub fn bits(&mut self) -> u64 {
+        let next = self.0.wrapping_mul(6_364_136_223_846_793_005);
+        self.0 = next.wrapping_add(1_442_695_040_888_963_407);
+        self.0
+    }
+
+    /// From 0 to 1.
+    pub fn uniform(&mut self) -> f64 {
+        (self.bits() >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    pub fn below(&mut self, n: usize) -> usize {
+        (self.bits() >> 33) as usize % n
+    }
+}
+
 /// Recipes for `points` points in the plane or in space, at most ten.
 pub fn recipe(
     dimension: usize,
@@ -47,6 +68,18 @@ pub fn recipe(
             bend_coefficient,
         },
     )
+}
+
+/// Random problems, as many in the plane as in space.
+pub fn problems(count: usize) -> Vec<Problem> {
+    let mut runner = TestRunner::new_with_rng(Config::default(), same_each_time());
+    let mut problems = Vec::new();
+    while problems.len() < count {
+        let dimension = 2 + problems.len() % 2;
+        let tree = recipe(dimension, 4..=9).new_tree(&mut runner).unwrap();
+        problems.extend(tree.current().build());
+    }
+    problems
 }
 
 impl Recipe {

@@ -5,6 +5,7 @@
 //! the figure measures is computed from its points alone.
 
 use crate::common::edits::Random;
+use crate::common::wanted;
 use krawl::constraint::{KINDS, Measure};
 use krawl::edit::{Ending, Session, Setting};
 use krawl::problem::Problem;
@@ -465,8 +466,5 @@ fn a_limit_is_where_the_figure_there_measures_it() {
 #[test]
 #[ignore = "minutes"]
 fn limits_of_all_kinds_are_where_figures_measure_them() {
-    let count = std::env::var("KRAWL_COUNT")
-        .ok()
-        .and_then(|n| n.parse().ok());
-    campaign(1, count.unwrap_or(100));
+    campaign(1, wanted("KRAWL_COUNT", 100));
 }

@@ -1,21 +1,10 @@
 //! How linkages move: against what geometry says of them, and against themselves.
 
+use crate::common::random::Dice;
+use crate::common::third;
 use krawl::motion::{Bounds, Motion};
 use krawl::problem::Problem;
 use krawl::track::{Control, Options};
-
-/// Chance that is the same each time.
-struct Dice(u64);
-
-impl Dice {
-    fn uniform(&mut self) -> f64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6364136223846793005)
-            .wrapping_add(1442695040888963407);
-        (self.0 >> 11) as f64 / (1u64 << 53) as f64
-    }
-}
 
 fn motion(text: &str, free: &[&str], asked: &[&str]) -> Result<Motion, String> {
     let problem = Problem::parse_loosely(text, "motion.toml").map_err(|e| e.to_string())?;
@@ -345,17 +334,6 @@ fn coordinates_are_those_in_which_the_reference_stands() {
     for k in 0..200_000 {
         let angle = std::f64::consts::TAU * f64::from(k) / 200_000.0;
         let b = [angle.cos(), angle.sin()];
-        // The third corner of a triangle on a side, on its left.
-        let third = |p: [f64; 2], q: [f64; 2], from_p: f64, from_q: f64| {
-            let to = [q[0] - p[0], q[1] - p[1]];
-            let d = to[0].hypot(to[1]);
-            let along = (from_p * from_p - from_q * from_q + d * d) / (2.0 * d);
-            let height = (from_p * from_p - along * along).sqrt();
-            [
-                p[0] + (to[0] * along - to[1] * height) / d,
-                p[1] + (to[1] * along + to[0] * height) / d,
-            ]
-        };
         let c = third(b, [4.0, 0.0], 3.5, 3.0);
         let p = third(b, c, 2.5, 2.2);
         (x, y) = (

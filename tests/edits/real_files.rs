@@ -1,6 +1,7 @@
 //! What sketches of other programs mean beside their equations: which of two angles, which way round arcs and lines go, what is tied
 //! by expressions, in which plane things are.
 
+use crate::common::wanted;
 use krawl::edit::{End, Ending, Session, Setting, rewrite};
 use krawl::import::{self, Figure, Imported};
 use krawl::problem::{Decimal, Problem, Shape};
@@ -594,10 +595,7 @@ fn edits_of_many_sketches_go_back() {
         println!("skipped: set KRAWL_SKETCHES");
         return;
     };
-    let most = std::env::var("KRAWL_COUNT")
-        .ok()
-        .and_then(|n| n.parse().ok())
-        .unwrap_or(usize::MAX);
+    let most = wanted("KRAWL_COUNT", usize::MAX);
     let (mut files, mut total, mut troubles) = (Vec::new(), 0, 0);
     for kind in ["slvs", "freecad"] {
         let entries = std::fs::read_dir(PathBuf::from(&folder).join(kind))

@@ -2,6 +2,7 @@
 //! against circles that meet, counted in floats.
 
 use crate::common::edits::Random;
+use crate::common::wanted;
 use assert_cmd::Command;
 use krawl::blocks::{Figures, Finding, Surplus, surplus};
 use krawl::edit::{End, Ending, Session, Setting};
@@ -339,10 +340,7 @@ proptest! {
 #[test]
 #[ignore = "minutes"]
 fn many_drawings_singular_by_chance() {
-    let count = std::env::var("KRAWL_COUNT")
-        .ok()
-        .and_then(|n| n.parse().ok());
-    (0..count.unwrap_or(2000)).for_each(look_at);
+    (0..wanted("KRAWL_COUNT", 2000)).for_each(look_at);
 }
 
 /// P is on the x-axis and on a circle that touches it there: the contact goes along with the circle, and one figure has it.

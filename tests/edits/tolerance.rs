@@ -1,5 +1,7 @@
 //! Dimensions within limits: against a great many choices of them, and against closed forms.
 
+use crate::common::random::Dice;
+use crate::common::third;
 use krawl::edit::Limits;
 use krawl::problem::{Decimal, Problem};
 use krawl::tolerance::{Study, limits, study};
@@ -18,18 +20,6 @@ fn run(problem: &Problem, within: &[Limits], asked: &[&str]) -> Result<Study, St
         &Options::certified(),
         &mut Control::default(),
     )
-}
-
-/// The third corner of a triangle on a side, on its left.
-fn third(p: [f64; 2], q: [f64; 2], from_p: f64, from_q: f64) -> [f64; 2] {
-    let to = [q[0] - p[0], q[1] - p[1]];
-    let d = to[0].hypot(to[1]);
-    let along = (from_p * from_p - from_q * from_q + d * d) / (2.0 * d);
-    let height = (from_p * from_p - along * along).sqrt();
-    [
-        p[0] + (to[0] * along - to[1] * height) / d,
-        p[1] + (to[1] * along + to[0] * height) / d,
-    ]
 }
 
 /// The plate of docs/examples: A-B, B-C, C-D, D-E, E-A, A-C, B-E.
@@ -51,13 +41,7 @@ fn samples_lie_within_the_worst_cases_and_come_near_them() {
     // D is on the far side of C-E from A.
     let far = plate(&nominal);
     assert!((length(far[0], far[3]) - 92.9466).abs() < 1e-3, "{far:?}");
-    let mut dice = 11u64;
-    let mut uniform = || {
-        dice = dice
-            .wrapping_mul(6364136223846793005)
-            .wrapping_add(1442695040888963407);
-        (dice >> 11) as f64 / (1u64 << 53) as f64
-    };
+    let mut dice = Dice(11);
     for tolerance in [1.0, 0.2, 0.05, 0.001] {
         let all = limits(
             &problem,
@@ -98,9 +82,9 @@ fn samples_lie_within_the_worst_cases_and_come_near_them() {
             let dimensions: [f64; 7] = std::array::from_fn(|k| {
                 // Every other choice is a corner.
                 let part = if round % 2 == 0 {
-                    uniform().round()
+                    dice.uniform().round()
                 } else {
-                    uniform()
+                    dice.uniform()
                 };
                 nominal[k] + tolerance * (2.0 * part - 1.0)
             });

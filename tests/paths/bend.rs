@@ -1,6 +1,6 @@
 //! The default bend: the same answer in any unit, and what it finds.
 
-use crate::common::edits::Random;
+use crate::common::edits::{Random, places, rigid};
 use krawl::problem::{Decimal, Problem};
 use krawl::track::{Control, Options, Status, solve};
 
@@ -16,13 +16,7 @@ struct Draft {
 /// Targets are the lengths of another figure, whose points are up to `noise` away from the sketch's in every
 /// coordinate: there is a solution.
 fn draft(random: &mut Random, dimension: usize, points: usize, noise: f64) -> Draft {
-    let places: Vec<Vec<i64>> = (0..points)
-        .map(|_| {
-            (0..dimension)
-                .map(|_| random.between(-100.0, 100.0) as i64)
-                .collect()
-        })
-        .collect();
+    let places = places(random, dimension, points);
     let wanted: Vec<Vec<f64>> = places
         .iter()
         .map(|p| {
@@ -31,23 +25,7 @@ fn draft(random: &mut Random, dimension: usize, points: usize, noise: f64) -> Dr
                 .collect()
         })
         .collect();
-    let mut edges: Vec<[usize; 2]> = (0..dimension)
-        .flat_map(|b| (0..b).map(move |a| [a, b]))
-        .collect();
-    for p in dimension..points {
-        let mut ends = Vec::new();
-        if random.below(2) == 0 && p > dimension {
-            ends.extend(edges.swap_remove(random.below(edges.len())));
-        }
-        let count = dimension + usize::from(!ends.is_empty());
-        while ends.len() < count {
-            let q = random.below(p);
-            if !ends.contains(&q) {
-                ends.push(q);
-            }
-        }
-        edges.extend(ends.into_iter().map(|q| [q, p]));
-    }
+    let edges = rigid(random, dimension, points);
     let length = |[a, b]: [usize; 2]| {
         let squared = wanted[a]
             .iter()

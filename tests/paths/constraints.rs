@@ -1,7 +1,8 @@
 //! Shipped problems with other constraints than distances: what their paths provably hold.
 
+use crate::common::solve;
 use krawl::problem::Problem;
-use krawl::track::{Control, EndKind, Options, Outcome, PathEnd, Space, Status, solve};
+use krawl::track::{self, Control, EndKind, Options, Outcome, PathEnd, Space, Status};
 
 fn shipped(name: &str) -> Problem {
     Problem::read(format!("problems/constraints/{name}.toml")).unwrap()
@@ -18,10 +19,6 @@ fn ways() -> [Options; 4] {
         Options::float(Space::Full),
         Options::float(Space::Reduced),
     ]
-}
-
-fn run(problem: &Problem, options: &Options) -> Outcome {
-    solve(problem, options, &mut Control::default()).unwrap()
 }
 
 /// Solutions, how many there are up to congruence and reflection, and how many of those are flat: all
@@ -41,13 +38,13 @@ fn counts(outcome: &Outcome) -> (usize, usize, usize) {
 fn pentahedron() {
     let problem = shipped("pentahedron");
     for options in ways() {
-        let outcome = run(&problem, &options);
+        let outcome = solve(&problem, &options);
         assert_eq!(outcome.status, Status::Closed);
         let (solutions, classes, flat) = counts(&outcome);
         assert_eq!((solutions, classes, flat), (22, 9, 6));
     }
     // What is not flat is not nearly so.
-    let outcome = run(&problem, &Options::certified());
+    let outcome = solve(&problem, &Options::certified());
     for solution in &outcome.solutions {
         let height = solution
             .points
@@ -63,7 +60,7 @@ fn points_and_lines() {
     for name in ["3p3l", "3p3l-orthogonal"] {
         let problem = shipped(name);
         for options in ways() {
-            let outcome = run(&problem, &options);
+            let outcome = solve(&problem, &options);
             assert_eq!(outcome.status, Status::Closed, "{name}");
             assert_eq!(outcome.solutions.len(), 4, "{name}");
         }
@@ -74,7 +71,7 @@ fn points_and_lines() {
 fn ends(problem: &Problem, solutions: usize) -> [PathEnd; 2] {
     let options = Options::certified();
     let [one, back] = [options.clone(), options.reversed()].map(|options| {
-        let outcome = run(problem, &options);
+        let outcome = solve(problem, &options);
         assert_eq!(outcome.solutions.len(), solutions, "{}", problem.name);
         match outcome.status {
             Status::Open(ends) => *ends,
@@ -93,7 +90,7 @@ fn ends(problem: &Problem, solutions: usize) -> [PathEnd; 2] {
 fn angles_and_faces_close() {
     let problem = shipped("6p7d3a2c-closed");
     for options in [Options::certified(), Options::float(Space::Full)] {
-        let outcome = run(&problem, &options);
+        let outcome = solve(&problem, &options);
         assert_eq!(outcome.status, Status::Closed);
         assert_eq!(outcome.solutions.len(), 4);
     }
@@ -134,7 +131,7 @@ fn angles_and_faces_lose_a_leg() {
 fn what_has_distances_only_refuses() {
     let problem = shipped("pentahedron");
     for space in [Space::Full, Space::Reduced] {
-        let refused = solve(&problem, &Options::paper(space), &mut Control::default());
+        let refused = track::solve(&problem, &Options::paper(space), &mut Control::default());
         assert!(refused.is_err());
     }
 }
@@ -158,7 +155,7 @@ fn both_spaces_agree() {
                         reverse,
                         ..Options::certified()
                     };
-                    run(&problem, &options)
+                    solve(&problem, &options)
                 });
                 agree(&full, &reduced).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
                 runs += 1;

@@ -1,6 +1,7 @@
 //! Paths through degenerate (flat) figures at t = 1: what is claimed of them, against arithmetic of the test's own.
 
 use crate::common::certificate::{self, Certificate};
+use crate::common::solve;
 use krawl::certificate::{
     EndClaim, Ending, Flaw, FormatError, Outcome as Verdicts, Record, Settings, SolutionClaim,
     Verdict, verify,
@@ -9,7 +10,7 @@ use krawl::interval::{Interval, hull, point};
 use krawl::problem::Problem;
 use krawl::report::theorem;
 use krawl::system::Homotopy;
-use krawl::track::{Control, Mode, Options, Outcome, Solution, Space, Status, solve};
+use krawl::track::{Mode, Options, Outcome, Solution, Space, Status};
 use std::collections::BTreeSet;
 use std::sync::OnceLock;
 use std::time::Duration;
@@ -48,10 +49,6 @@ fn hexahedron() -> Problem {
 /// The one that is shipped, with the same lengths and faces.
 fn shipped() -> Problem {
     Problem::read("problems/constraints/hexahedron.toml").unwrap()
-}
-
-fn run(problem: &Problem, options: &Options) -> Outcome {
-    solve(problem, options, &mut Control::default()).unwrap()
 }
 
 fn middle(solution: &Solution) -> Figure {
@@ -261,7 +258,7 @@ fn the_shipped_hexahedron_has_seven_solutions_up_to_reflection() {
         Options::float(Space::Full),
         Options::float(Space::Full).reversed(),
     ] {
-        let outcome = run(&problem, &options);
+        let outcome = solve(&problem, &options);
         assert_eq!(outcome.status, Status::Closed, "{options:?}");
         assert_eq!(check(&problem, &outcome), SHIPPED, "{options:?}");
         let classes = |flat: bool| -> BTreeSet<usize> {
@@ -276,7 +273,7 @@ fn the_shipped_hexahedron_has_seven_solutions_up_to_reflection() {
 /// A problem's path closes in both modes, with so many solutions and flat ones among them, which are the same in both.
 fn closes(problem: &Problem, counts: (usize, usize)) {
     let [certified, float] = [Options::certified(), Options::float(Space::Full)].map(|options| {
-        let outcome = run(problem, &options);
+        let outcome = solve(problem, &options);
         assert_eq!(outcome.status, Status::Closed, "{:?}", outcome.mode);
         assert_eq!(check(problem, &outcome), counts, "{:?}", outcome.mode);
         outcome
@@ -298,8 +295,8 @@ fn closes(problem: &Problem, counts: (usize, usize)) {
 #[test]
 fn the_other_way_round_meets_the_same() {
     for options in [Options::certified(), Options::float(Space::Full)] {
-        let there = run(&hexahedron(), &options);
-        let back = run(&hexahedron(), &options.clone().reversed());
+        let there = solve(&hexahedron(), &options);
+        let back = solve(&hexahedron(), &options.clone().reversed());
         assert_eq!(back.status, Status::Closed);
         assert_eq!(there.solutions.len(), back.solutions.len());
         for (one, other) in there.solutions.iter().zip(back.solutions.iter().rev()) {
@@ -327,7 +324,7 @@ fn the_other_way_round_meets_the_same() {
 fn flat_figures_of_other_problems_are_not_degenerate() {
     let problem = Problem::read("problems/constraints/pentahedron.toml").unwrap();
     for options in [Options::certified(), Options::float(Space::Full)] {
-        let outcome = solve(&problem, &options, &mut Control::default()).unwrap();
+        let outcome = solve(&problem, &options);
         assert!(outcome.solutions.iter().any(|s| is_flat(&middle(s))));
         assert!(outcome.solutions.iter().all(|s| !s.is_degenerate));
         let mut switched_on = outcome.switched_on.iter();

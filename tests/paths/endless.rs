@@ -6,6 +6,7 @@
 
 use crate::common::certificate;
 use crate::common::edits::Random;
+use crate::common::wanted;
 use krawl::certificate::{Outcome as Verdict, Settings, verify};
 use krawl::problem::Problem;
 use krawl::track::{EndKind, Options, Outcome, Status};
@@ -199,8 +200,5 @@ fn quadratic_systems_end_and_what_is_said_of_them_is_verified() {
 #[test]
 #[ignore = "minutes"]
 fn many_quadratic_systems_end_and_what_is_said_of_them_is_verified() {
-    let count = std::env::var("KRAWL_COUNT")
-        .ok()
-        .and_then(|n| n.parse().ok());
-    campaign(1, count.unwrap_or(300));
+    campaign(1, wanted("KRAWL_COUNT", 300));
 }

@@ -4,14 +4,13 @@
 //! A run that stops has to stop at a singular place; the other way round the path, in another place, under other names
 //! and in another unit the same figures are found.
 
+use crate::common::edits::Random;
 use crate::common::mixed::{Spec, View};
+use crate::common::wanted;
 use krawl::constraint::{Symmetry, symmetry};
 use krawl::problem::Problem;
 use krawl::track::{Control, Options, Outcome, Space, Status, solve};
 use std::collections::BTreeMap;
-
-/// SplitMix64 (Steele, Lea, Flood 2014).
-pub struct Random(pub u64);
 
 #[derive(Debug, Default)]
 struct Tally {
@@ -237,16 +236,6 @@ fn many(count: usize, seed: u64) -> Tally {
     tally
 }
 
-impl Random {
-    fn below(&mut self, n: usize) -> usize {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) % n as u64) as usize
-    }
-}
-
 #[test]
 fn random_problems_of_mixed_kinds() {
     let tally = many(120, 1);
@@ -257,7 +246,5 @@ fn random_problems_of_mixed_kinds() {
 #[test]
 #[ignore = "minutes: KRAWL_COUNT problems (5000), those of KRAWL_SEED"]
 fn many_random_problems_of_mixed_kinds() {
-    let number = |name: &str| std::env::var(name).ok().and_then(|x| x.parse::<u64>().ok());
-    let seed = number("KRAWL_SEED").unwrap_or(7);
-    many(number("KRAWL_COUNT").unwrap_or(5000) as usize, seed);
+    many(wanted("KRAWL_COUNT", 5000), wanted("KRAWL_SEED", 7));
 }

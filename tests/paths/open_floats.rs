@@ -1,19 +1,13 @@
 //! Paths with two ends in floats: both ways from the sketch, as certified runs go, and nothing claimed to be proved.
 
-use crate::common::QUADRANGLE;
+use crate::common::{QUADRANGLE, solve};
 use assert_cmd::Command;
 use krawl::problem::Problem;
 use krawl::report::{to_summary, to_table};
-use krawl::track::{
-    Control, EndKind, Options, Outcome, PathEnd, Solution, Space, Status, Stop, StopKind, solve,
-};
+use krawl::track::{EndKind, Options, Outcome, PathEnd, Solution, Space, Status, Stop, StopKind};
 use serde_json::Value;
 
 const SPACES: [Space; 2] = [Space::Full, Space::Reduced];
-
-fn run(problem: &Problem, options: &Options) -> Outcome {
-    solve(problem, options, &mut Control::default()).unwrap()
-}
 
 fn shipped(kind: &str) -> Problem {
     Problem::read(format!("problems/constraints/6p7d3a2c-{kind}.toml")).unwrap()
@@ -39,10 +33,10 @@ fn apart(one: &Solution, other: &Solution) -> f64 {
 #[test]
 fn floats_go_both_ways_to_infinity_and_find_what_is_proved() {
     let problem = shipped("infinite");
-    let proved = run(&problem, &Options::certified());
+    let proved = solve(&problem, &Options::certified());
     assert_eq!(proved.solutions.len(), 2);
     for space in SPACES {
-        let seen = run(&problem, &Options::float(space));
+        let seen = solve(&problem, &Options::float(space));
         assert_eq!(seen.space, space);
         let pairs = ends(&seen).iter().zip(ends(&proved));
         for (end, known) in pairs {
@@ -66,7 +60,7 @@ fn floats_go_both_ways_to_infinity_and_find_what_is_proved() {
         let (low, high) = seen.t_range;
         assert!(low < -0.6 && high > 1.24);
         // The other way round the ends change places.
-        let back = run(&problem, &Options::float(space).reversed());
+        let back = solve(&problem, &Options::float(space).reversed());
         assert_eq!(ends(&back)[0].t, ends(&seen)[1].t);
         assert_eq!(ends(&back)[1].t, ends(&seen)[0].t);
         assert!(apart(&back.solutions[0], &seen.solutions[1]) < 1e-9);
@@ -76,7 +70,7 @@ fn floats_go_both_ways_to_infinity_and_find_what_is_proved() {
 #[test]
 fn nothing_of_it_is_called_proved() {
     let problem = shipped("infinite");
-    let seen = run(&problem, &Options::float(Space::Full));
+    let seen = solve(&problem, &Options::float(Space::Full));
     for text in [
         to_table(&problem, &seen, None),
         to_summary(&problem, &seen, None),
@@ -116,14 +110,14 @@ fn nothing_of_it_is_called_proved() {
 #[test]
 fn a_vanishing_length_is_located() {
     let problem = shipped("undefined");
-    let proved = run(&problem, &Options::certified());
+    let proved = solve(&problem, &Options::certified());
     let mut places = Vec::new();
     for space in SPACES {
         for options in [
             Options::float(space),
             Options::float(space).with_max_step(0.3),
         ] {
-            let seen = run(&problem, &options);
+            let seen = solve(&problem, &options);
             assert!(seen.solutions.is_empty());
             for (end, known) in ends(&seen).iter().zip(ends(&proved)) {
                 assert_eq!(end.kind, EndKind::Undefined);
@@ -153,7 +147,7 @@ fn a_given_length_that_vanishes_is_located() {
     let root = (slope * slope + 8.0 * a0).sqrt();
     let zeros = [(slope - root) / 4.0, (slope + root) / 4.0];
     for space in SPACES {
-        let seen = run(&problem, &Options::float(space));
+        let seen = solve(&problem, &Options::float(space));
         for (end, zero) in ends(&seen).iter().zip(zeros) {
             assert_eq!(end.kind, EndKind::Undefined);
             // The equations lose rank as the length vanishes: steps die when less than 1e-6 of it is left.
@@ -188,9 +182,9 @@ fn floats_end_where_a_vector_vanishes() {
         "test.toml",
     )
     .unwrap();
-    let proved = run(&problem, &Options::certified());
+    let proved = solve(&problem, &Options::certified());
     for space in SPACES {
-        let seen = run(&problem, &Options::float(space));
+        let seen = solve(&problem, &Options::float(space));
         for (end, known) in ends(&seen).iter().zip(ends(&proved)) {
             assert_eq!(
                 (end.kind, known.kind),
@@ -214,7 +208,7 @@ fn limits_are_no_ends() {
             max_steps: most,
             ..Options::float(Space::Full)
         };
-        let outcome = run(&problem, &options);
+        let outcome = solve(&problem, &options);
         let Status::Stopped(Stop { kind, text }) = &outcome.status else {
             // Which way is shorter is not known beforehand.
             panic!("{:?}", outcome.status);
@@ -234,7 +228,7 @@ fn where_nothing_moves_t_goes_on() {
     )
     .unwrap();
     for space in SPACES {
-        let outcome = run(&problem, &Options::float(space));
+        let outcome = solve(&problem, &Options::float(space));
         let [behind, ahead] = ends(&outcome);
         assert_eq!(
             (behind.kind, ahead.kind),

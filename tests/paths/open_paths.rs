@@ -1,19 +1,15 @@
 //! Paths with two ends, and edits of figures with other constraints than distances.
 
-use crate::common::{QUADRANGLE, certificate};
+use crate::common::{QUADRANGLE, certificate, solve};
 use krawl::certificate::Outcome::Verified;
 use krawl::certificate::{Settings, verify};
 use krawl::edit::{Ending, Session, Setting};
 use krawl::problem::Problem;
 use krawl::system::Located;
-use krawl::track::{Control, EndKind, Options, Outcome, Space, Status, StopKind, solve};
+use krawl::track::{EndKind, Options, Space, Status, StopKind};
 
 fn parse(text: &str) -> Problem {
     Problem::parse(text, "test.toml").unwrap()
-}
-
-fn run(problem: &Problem, options: &Options) -> Outcome {
-    solve(problem, options, &mut Control::default()).unwrap()
 }
 
 #[test]
@@ -24,7 +20,7 @@ fn a_path_whose_angle_loses_its_leg_is_open_both_ways() {
             reverse,
             ..Options::certified()
         };
-        let outcome = run(&problem, &options);
+        let outcome = solve(&problem, &options);
         let Status::Open(ends) = &outcome.status else {
             panic!("{:?}", outcome.status);
         };
@@ -72,7 +68,7 @@ fn tubes_that_lead_nowhere_end_the_path() {
                 max_steps: 100_000,
                 ..Options::certified()
             };
-            let outcome = run(&problem, &options);
+            let outcome = solve(&problem, &options);
             let Status::Open(ends) = &outcome.status else {
                 panic!("{:?}", outcome.status);
             };
@@ -95,7 +91,7 @@ fn a_point_goes_away_where_lines_become_parallel() {
          distances = [[\"a\", \"b\", 4]]\nangles = [[\"base\", \"l1\", 60], [\"base\", \"l2\", 50]]\n\
          on = [[\"a\", \"l1\"], [\"b\", \"l2\"], [\"p\", \"l1\"], [\"p\", \"l2\"]]",
     );
-    let outcome = run(&problem, &Options::certified());
+    let outcome = solve(&problem, &Options::certified());
     let Status::Open(ends) = &outcome.status else {
         panic!("{:?}", outcome.status);
     };
@@ -137,7 +133,7 @@ fn a_sketch_that_meets_everything_stays_as_it_is() {
             space,
             ..Options::certified()
         };
-        let outcome = run(problem, &options);
+        let outcome = solve(problem, &options);
         assert_eq!(outcome.space, space);
         let Status::Open(ends) = &outcome.status else {
             panic!("{:?}", outcome.status);
@@ -169,7 +165,7 @@ fn a_sketch_that_meets_everything_stays_as_it_is() {
 fn circles_about_one_centre_vanish_one_after_the_other() {
     // The radii are 3 + 0.3 t and that with 1.3 − 0.3 t: 4.3.
     let problem = rings("", "3", "]");
-    let outcome = run(&problem, &Options::certified());
+    let outcome = solve(&problem, &Options::certified());
     let Status::Open(ends) = &outcome.status else {
         panic!("{:?}", outcome.status);
     };
@@ -193,7 +189,7 @@ fn a_figure_as_it_should_be_is_found() {
             space,
             ..Options::certified()
         };
-        let outcome = run(&problem, &options);
+        let outcome = solve(&problem, &options);
         let Status::Stopped(stop) = &outcome.status else {
             panic!("{:?}", outcome.status);
         };
@@ -237,7 +233,7 @@ fn where_a_leg_vanishes_there_is_no_right_angle() {
     for text in [FOOT.to_owned(), by_name] {
         let problem = parse(&text);
         for options in [Options::certified(), Options::certified().reversed()] {
-            let outcome = run(&problem, &options);
+            let outcome = solve(&problem, &options);
             let Status::Open(ends) = &outcome.status else {
                 panic!("{:?}", outcome.status);
             };
@@ -254,7 +250,7 @@ fn where_a_leg_vanishes_there_is_no_right_angle() {
             }
         }
         // Floats observe no such figure either.
-        let observed = run(&problem, &Options::float(Space::Full));
+        let observed = solve(&problem, &Options::float(Space::Full));
         assert!(observed.solutions.len() <= 2);
     }
 }
@@ -280,7 +276,7 @@ fn a_reversed_line_is_the_same_line() {
         "#,
     );
     for options in [Options::certified(), Options::float(Space::Full)] {
-        let outcome = run(&problem, &options);
+        let outcome = solve(&problem, &options);
         // One triangle and its mirror image.
         for solution in &outcome.solutions {
             assert_eq!(solution.class, 0, "{:?}", outcome.solutions);

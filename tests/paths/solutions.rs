@@ -3,6 +3,7 @@
 use crate::common::boxes::{View, check, float_matching, holds, matching};
 use crate::common::exact::{middle, ranges, root_near};
 use crate::common::moves::{mirrored, moved, ratio, relabelled, scaled, squared};
+use crate::common::random::Dice;
 use crate::common::{FLOAT_SPACES, SHORT, arguments, closed, shipped, solve, ways};
 use assert_cmd::Command;
 use krawl::interval::hull;
@@ -312,11 +313,10 @@ fn newton_s_method_from_random_figures_finds_nothing_else() {
             panic!()
         };
         let mut met = vec![0; boxes.len()];
-        let mut random = Random(1);
+        let mut dice = Dice(1);
+        let mut random = || 8.0 * dice.uniform() - 4.0;
         for _ in 0..600 {
-            let mut start: Vec<[f64; 3]> = (0..6)
-                .map(|_| [random.next(), random.next(), 0.0])
-                .collect();
+            let mut start: Vec<[f64; 3]> = (0..6).map(|_| [random(), random(), 0.0]).collect();
             start[first] = [0.0; 3];
             start[second][1] = 0.0;
             let Some(root) = root_near(&problem, &start) else {
@@ -334,18 +334,5 @@ fn newton_s_method_from_random_figures_finds_nothing_else() {
             met[place.unwrap_or_else(|| panic!("{name}: {root:?} is in no box"))] += 1;
         }
         assert!(met.iter().all(|&times| times > 0), "{name}: {met:?}");
-    }
-}
-
-/// Numbers from -4 to 4 (a linear congruence, its low bits dropped).
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> f64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6364136223846793005)
-            .wrapping_add(1442695040888963407);
-        (self.0 >> 11) as f64 / (1u64 << 53) as f64 * 8.0 - 4.0
     }
 }

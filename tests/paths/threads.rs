@@ -1,13 +1,11 @@
 //! How many threads there are is nobody's business: results are the same for one, two, three, eight.
 
 use crate::common::certificate::{self, Certificate};
-use crate::common::random::{recipe, same_each_time};
+use crate::common::random::problems;
 use crate::common::{SHORT, shipped};
 use krawl::certificate::{Outcome, Settings, Verdict, verify};
 use krawl::problem::Problem;
 use krawl::track::{self, Control, Options, Space};
-use proptest::strategy::{Strategy, ValueTree};
-use proptest::test_runner::{Config, TestRunner};
 use rayon::prelude::*;
 use serde_json::Value;
 use std::fs;
@@ -15,18 +13,6 @@ use std::path::Path;
 use std::process::Command;
 
 const THREADS: [usize; 4] = [1, 2, 3, 8];
-
-/// Random problems, as many in the plane as in space.
-fn random(count: usize) -> Vec<Problem> {
-    let mut runner = TestRunner::new_with_rng(Config::default(), same_each_time());
-    let mut problems = Vec::new();
-    while problems.len() < count {
-        let dimension = 2 + problems.len() % 2;
-        let tree = recipe(dimension, 4..=9).new_tree(&mut runner).unwrap();
-        problems.extend(tree.current().build());
-    }
-    problems
-}
 
 fn short() -> impl Iterator<Item = Problem> {
     SHORT.into_iter().map(|(name, _)| shipped(name))
@@ -55,7 +41,7 @@ fn run(problem: &Problem, options: &Options) -> track::Outcome {
 
 #[test]
 fn runs_side_by_side_are_the_same_runs() {
-    let problems: Vec<Problem> = short().chain(random(40)).collect();
+    let problems: Vec<Problem> = short().chain(problems(40)).collect();
     let jobs: Vec<(&Problem, Options)> = problems
         .iter()
         .flat_map(|problem| all_ways().into_iter().map(move |way| (problem, way)))
@@ -89,7 +75,7 @@ fn verdicts_are_the_same() {
         max_steps: 15,
         ..Options::certified()
     };
-    for problem in random(24) {
+    for problem in problems(24) {
         certificates.push(certificate::of(&problem, &Options::certified()).1);
         certificates.push(certificate::of(&problem, &stopped).1);
     }
@@ -164,7 +150,7 @@ fn the_program_says_the_same() {
     let mut files: Vec<String> = ["dodecagon", "k33", "prism"]
         .map(|name| format!("problems/{name}.toml"))
         .into();
-    for (k, problem) in random(6).iter().enumerate() {
+    for (k, problem) in problems(6).iter().enumerate() {
         let file = folder.path().join(format!("{k}.toml"));
         fs::write(&file, problem.to_toml()).unwrap();
         files.push(file.to_str().unwrap().to_owned());

@@ -1,27 +1,10 @@
 //! On several threads a path is followed both ways from the sketch until these meet: the theorem is the same.
 
-use crate::common::random::{recipe, same_each_time};
-use crate::common::{SHORT, shipped};
+use crate::common::random::problems;
+use crate::common::{SHORT, shipped, solve};
 use krawl::interval::Interval;
 use krawl::problem::Problem;
-use krawl::track::{Control, Options, Outcome, Solution, Space, Status, solve};
-use proptest::strategy::{Strategy, ValueTree};
-use proptest::test_runner::{Config, TestRunner};
-
-fn random(count: usize) -> Vec<Problem> {
-    let mut runner = TestRunner::new_with_rng(Config::default(), same_each_time());
-    let mut problems = Vec::new();
-    while problems.len() < count {
-        let dimension = 2 + problems.len() % 2;
-        let tree = recipe(dimension, 4..=9).new_tree(&mut runner).unwrap();
-        problems.extend(tree.current().build());
-    }
-    problems
-}
-
-fn run(problem: &Problem, options: &Options) -> Outcome {
-    solve(problem, options, &mut Control::default()).unwrap()
-}
+use krawl::track::{Options, Outcome, Solution, Space, Status};
 
 fn overlap(one: &Solution, other: &Solution) -> bool {
     let meet = |(a, b): (&Interval, &Interval)| !a.disjoint(*b);
@@ -70,7 +53,7 @@ fn assert_same(one: &Outcome, two: &Outcome) {
 #[test]
 fn both_ways_find_what_one_way_finds() {
     let short = SHORT.into_iter().map(|(name, _)| shipped(name));
-    let problems: Vec<Problem> = short.chain(random(60)).collect();
+    let problems: Vec<Problem> = short.chain(problems(60)).collect();
     for problem in &problems {
         for space in [Space::Full, Space::Reduced] {
             let options = Options {
@@ -78,13 +61,16 @@ fn both_ways_find_what_one_way_finds() {
                 max_steps: 20_000,
                 ..Options::certified()
             };
-            let one = run(problem, &options);
+            let one = solve(problem, &options);
             if one.status != Status::Closed {
                 continue;
             }
             // Where threads meet depends on how they run, and on short paths whether they do.
             for threads in [2, 3, 0] {
-                assert_same(&one, &run(problem, &options.clone().with_threads(threads)));
+                assert_same(
+                    &one,
+                    &solve(problem, &options.clone().with_threads(threads)),
+                );
             }
         }
     }
@@ -95,9 +81,9 @@ fn both_ways_find_what_one_way_finds() {
 fn on_long_paths_they_meet() {
     let problem = shipped("icosahedron");
     let options = Options::certified();
-    let one = run(&problem, &options);
+    let one = solve(&problem, &options);
     let met = (0..5).filter(|_| {
-        let two = run(&problem, &options.clone().with_threads(2));
+        let two = solve(&problem, &options.clone().with_threads(2));
         assert_same(&one, &two);
         has_met(&two)
     });
@@ -108,8 +94,8 @@ fn on_long_paths_they_meet() {
 fn the_other_direction_is_the_reverse() {
     let problem = shipped("disulfide");
     let options = Options::certified().with_threads(2);
-    let ahead = run(&problem, &options);
-    let back = run(&problem, &options.reversed());
+    let ahead = solve(&problem, &options);
+    let back = solve(&problem, &options.reversed());
     assert_eq!(ahead.solutions.len(), back.solutions.len());
     for (a, b) in ahead.solutions.iter().zip(back.solutions.iter().rev()) {
         assert!(overlap(a, b));

@@ -4,6 +4,7 @@
 use crate::common::edits::Random;
 use crate::common::mixed::Spec;
 use crate::common::sketches::{ARC, LEG, PLATE, apollonius_text, isosceles_text};
+use crate::common::wanted;
 use krawl::complete::{Complete, Method, Options, Status, Unserved, Why, all};
 use krawl::constraint::{Symmetry, symmetry};
 use krawl::problem::Problem;
@@ -302,14 +303,10 @@ fn random_problems_of_mixed_kinds_hold_their_paths() {
 #[test]
 #[ignore = "minutes: KRAWL_COUNT problems (1000) of KRAWL_DIMENSION (2), those of KRAWL_SEED; in KRAWL_KEEP those not complete"]
 fn many_random_problems_of_mixed_kinds_hold_their_paths() {
-    let number = |name: &str, default: u64| {
-        let value = std::env::var(name).ok();
-        value.map_or(default, |value| value.parse().unwrap())
-    };
     let tally = mixed(
-        number("KRAWL_DIMENSION", 2) as usize,
-        number("KRAWL_COUNT", 1000) as usize,
-        number("KRAWL_SEED", 1),
+        wanted("KRAWL_DIMENSION", 2),
+        wanted("KRAWL_COUNT", 1000),
+        wanted("KRAWL_SEED", 1),
         20_000,
     );
     println!("{tally:?}");

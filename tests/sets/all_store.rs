@@ -8,15 +8,15 @@ use std::process::{Command as Process, Stdio};
 use std::time::Duration;
 
 const DODECAGON: &str = "problems/dodecagon.toml";
-const NAME: &str = "parts.krawl-all";
+pub const NAME: &str = "parts.krawl-all";
 
-fn run(arguments: &[&str]) -> assert_cmd::assert::Assert {
+pub fn run(arguments: &[&str]) -> assert_cmd::assert::Assert {
     let mut command = Command::cargo_bin("krawl").unwrap();
     command.arg("all").args(arguments).arg("--quiet").assert()
 }
 
 /// What it prints as JSON, but for the time it took.
-fn answer(arguments: &[&str], code: i32) -> Value {
+pub fn answer(arguments: &[&str], code: i32) -> Value {
     let mut all = arguments.to_vec();
     all.extend(["--json", "-"]);
     let assert = run(&all).code(code);
@@ -25,13 +25,41 @@ fn answer(arguments: &[&str], code: i32) -> Value {
     value
 }
 
-fn complaint(arguments: &[&str]) -> String {
+pub fn complaint(arguments: &[&str]) -> String {
     let assert = run(arguments).code(2);
     String::from_utf8(assert.get_output().stderr.clone()).unwrap()
 }
 
-fn text(path: &Path) -> &str {
+pub fn text(path: &Path) -> &str {
     path.to_str().unwrap()
+}
+
+/// The lines of a store.
+pub fn lines(store: &Path) -> usize {
+    let bytes = std::fs::read(store.join(NAME)).unwrap_or_default();
+    bytes.iter().filter(|&&b| b == b'\n').count()
+}
+
+/// Begins the same search so often, and kills it after a while, later each time: the store never has fewer lines than before.
+pub fn killed(times: u64, arguments: &[&str], store: &Path) {
+    let mut before = 0;
+    for round in 0..times {
+        let mut child = Process::new(assert_cmd::cargo::cargo_bin("krawl"))
+            .arg("all")
+            .args(arguments)
+            .args(["--quiet", "--store", text(store)])
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
+        std::thread::sleep(Duration::from_millis(5 + 15 * round));
+        // On Unix this is kill -9.
+        let _ = child.kill();
+        child.wait().unwrap();
+        let now = lines(store);
+        assert!(now >= before, "{now} lines, and there were {before}");
+        before = now;
+    }
 }
 
 #[test]
@@ -42,8 +70,8 @@ fn cut_off_anywhere_it_goes_on_to_the_same_answer() {
     assert_eq!(answer(&[DODECAGON, "--store", text(&store)], 0), once);
     let file = store.join(NAME);
     let whole = std::fs::read(&file).unwrap();
-    let lines = whole.iter().filter(|&&b| b == b'\n').count();
-    assert!(lines > 20, "{lines}");
+    let count = lines(&store);
+    assert!(count > 20, "{count}");
     let first = whole.iter().position(|&b| b == b'\n').unwrap();
     // As a kill leaves it: nothing, half of the first line, the first line alone, half of another line.
     for length in [
@@ -57,8 +85,7 @@ fn cut_off_anywhere_it_goes_on_to_the_same_answer() {
         std::fs::write(&file, &whole[..length]).unwrap();
         let again = answer(&[DODECAGON, "--store", text(&store), "--threads", "1"], 0);
         assert_eq!(again, once, "cut off after {length} bytes");
-        let after = std::fs::read(&file).unwrap();
-        assert_eq!(after.iter().filter(|&&b| b == b'\n').count(), lines);
+        assert_eq!(lines(&store), count);
     }
     // A line that is damaged is not believed: it is searched again.
     let mut damaged = whole.clone();
@@ -77,31 +104,7 @@ fn a_killed_process_loses_nothing_that_was_done() {
     let folder = tempfile::tempdir().unwrap();
     let store = folder.path().join("store");
     let once = answer(&[DODECAGON], 0);
-    let mut before = 0;
-    for round in 0..12u64 {
-        let mut child = Process::new(assert_cmd::cargo::cargo_bin("krawl"))
-            .args([
-                "all",
-                DODECAGON,
-                "--quiet",
-                "--threads",
-                "1",
-                "--store",
-                text(&store),
-            ])
-            .stdout(Stdio::null())
-            .stderr(Stdio::null())
-            .spawn()
-            .unwrap();
-        std::thread::sleep(Duration::from_millis(5 + 15 * round));
-        // On Unix this is kill -9.
-        let _ = child.kill();
-        child.wait().unwrap();
-        let length = std::fs::read(store.join(NAME))
-            .map_or(0, |bytes| bytes.iter().filter(|&&b| b == b'\n').count());
-        assert!(length >= before, "{length} lines, and there were {before}");
-        before = length;
-    }
+    killed(12, &[DODECAGON, "--threads", "1"], &store);
     assert_eq!(answer(&[DODECAGON, "--store", text(&store)], 0), once);
 }
 
@@ -202,7 +205,7 @@ fn a_first_line_that_is_damaged_or_of_another_search_is_not_believed() {
     assert_eq!(answer(&[DODECAGON, "--store", text(&store)], 0), once);
     // One digit of the plan.
     let first = whole.lines().next().unwrap();
-    let at = first.find(r#""centre":"#).unwrap() + r#""centre":"#.len();
+    let at = first.find(r#""point":"#).unwrap() + r#""point":"#.len();
     let digit = if &first[at..=at] == "9" { "8" } else { "9" };
     let said = with(&format!("{}{digit}{}", &whole[..at], &whole[at + 1..]));
     assert!(said.contains("first line is damaged"), "{said}");

@@ -1,14 +1,10 @@
 //! `krawl all` with a store where the search goes over all coordinates, block after block: ended at any moment, shared and
 //! merged, the answer and the cover are those of one run.
 
-use assert_cmd::Command;
-use serde_json::Value;
+use super::all_store::{NAME, answer, complaint, killed, lines, text};
 use std::path::{Path, PathBuf};
-use std::process::{Command as Process, Stdio};
-use std::time::Duration;
 
 const PENTAHEDRON: &str = "problems/constraints/pentahedron.toml";
-const NAME: &str = "parts.krawl-all";
 
 /// A double butterfly on four fixed points, and another one on the first: its second mechanism is searched for each figure of the
 /// first.
@@ -53,31 +49,6 @@ distances = [
     ["T", "t", 10.0],
 ]
 "#;
-
-fn run(arguments: &[&str]) -> assert_cmd::assert::Assert {
-    let mut command = Command::cargo_bin("krawl").unwrap();
-    command.arg("all").args(arguments).arg("--quiet").assert()
-}
-
-/// What it prints as JSON, but for the time it took.
-fn answer(arguments: &[&str], code: i32) -> Value {
-    let mut all = arguments.to_vec();
-    all.extend(["--json", "-"]);
-    let assert = run(&all).code(code);
-    let mut value: Value = serde_json::from_slice(&assert.get_output().stdout).unwrap();
-    value.as_object_mut().unwrap().remove("seconds");
-    value
-}
-
-fn text(path: &Path) -> &str {
-    path.to_str().unwrap()
-}
-
-/// The lines of a store.
-fn lines(store: &Path) -> usize {
-    let bytes = std::fs::read(store.join(NAME)).unwrap_or_default();
-    bytes.iter().filter(|&&b| b == b'\n').count()
-}
 
 fn written(folder: &Path) -> PathBuf {
     let file = folder.join("two-butterflies.toml");
@@ -133,22 +104,7 @@ fn a_killed_process_loses_nothing_that_was_done() {
     let two = written(folder.path());
     let store = folder.path().join("store");
     let once = answer(&[text(&two)], 0);
-    let mut before = 0;
-    for round in 0..10u64 {
-        let mut child = Process::new(assert_cmd::cargo::cargo_bin("krawl"))
-            .args(["all", text(&two), "--quiet", "--store", text(&store)])
-            .stdout(Stdio::null())
-            .stderr(Stdio::null())
-            .spawn()
-            .unwrap();
-        std::thread::sleep(Duration::from_millis(5 + 15 * round));
-        // On Unix this is kill -9.
-        let _ = child.kill();
-        child.wait().unwrap();
-        let now = lines(&store);
-        assert!(now >= before, "{now} lines, and there were {before}");
-        before = now;
-    }
+    killed(10, &[text(&two)], &store);
     assert_eq!(answer(&[text(&two), "--store", text(&store)], 0), once);
 }
 
@@ -179,13 +135,11 @@ fn shares_are_merged_to_the_same_answer() {
     let fresh = (lines(&whole) - 1).saturating_sub(parts);
     assert!(20 * fresh < lines(&whole), "{fresh} of {}", lines(&whole));
     // Of another problem, or of a search by plan.
-    let assert = run(&[PENTAHEDRON, "--store", text(&whole)]).code(2);
-    let said = String::from_utf8_lossy(&assert.get_output().stderr).into_owned();
+    let said = complaint(&[PENTAHEDRON, "--store", text(&whole)]);
     assert!(said.contains("another problem"), "{said}");
     let plan = at("plan");
     answer(&["problems/prism.toml", "--store", text(&plan)], 0);
     let merge = [text(&two), "--store", text(&whole), "--merge", text(&plan)];
-    let assert = run(&merge).code(2);
-    let said = String::from_utf8_lossy(&assert.get_output().stderr).into_owned();
+    let said = complaint(&merge);
     assert!(said.contains("another search"), "{said}");
 }

@@ -4,7 +4,7 @@
 use crate::common::boxes::check;
 use crate::common::moves::relabelled;
 use crate::common::random::{recipe, same_each_time};
-use crate::common::solve;
+use crate::common::{shipped, solve};
 use krawl::complete::{Complete, Options, Status, all};
 use krawl::problem::{Problem, Target};
 use krawl::track::{Options as PathOptions, Solution};
@@ -13,10 +13,6 @@ use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
 use std::cell::RefCell;
 use std::time::Duration;
-
-fn shipped(name: &str) -> Problem {
-    Problem::read(format!("problems/{name}.toml")).unwrap()
-}
 
 fn searched(problem: &Problem) -> Complete {
     all(problem, &Options::default()).unwrap()

@@ -1,5 +1,6 @@
 //! Figures at infinity: lengths that add up to zero with signs around a point take figures away, and the rest is complete.
 
+use crate::common::random::Dice;
 use krawl::certificate::complex::verify_complex_set;
 use krawl::complete::{self, all};
 use krawl::complex::{Lowered, Solutions, Status, Template, Ways, lower, solve, to_certificate};
@@ -101,17 +102,11 @@ fn a_sum_that_is_nearly_zero_takes_nothing_away() {
 /// solutions as the search of all real ones finds, the numbers add up to the bound, and the checker of certificates proves it.
 #[test]
 fn round_lengths_agree_with_complete_real_sets() {
-    let mut state = 7u64;
-    let mut next = || {
-        state = state
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        (state >> 33) % 7
-    };
+    let mut dice = Dice(7);
     let (mut complete, mut away) = (0, 0);
     for _ in 0..40 {
         let lengths: Vec<String> = (0..12)
-            .map(|_| format!("{:.2}", 1.0 + 0.05 * next() as f64))
+            .map(|_| format!("{:.2}", 1.0 + 0.05 * dice.below(7) as f64))
             .collect();
         let problem = octahedron(&lengths);
         let (lowered, solutions) = solved(&problem, false);

@@ -1,6 +1,7 @@
 //! Figures with more distances than unknowns: what is said of those that were left out, against plain floats and against least squares on
 //! all distances from many starts. And what one exact step decides.
 
+use crate::common::wanted;
 use krawl::complete::{Complete, Options, Status, Surplus, all, has_equations_to_spare};
 use krawl::interval::Interval;
 use krawl::problem::Problem;
@@ -249,9 +250,7 @@ fn what_is_left_out_is_met_or_missed_as_said() {
 #[test]
 #[ignore = "takes minutes: KRAWL_COUNT=1000"]
 fn what_is_left_out_is_met_or_missed_as_said_of_many() {
-    let count = std::env::var("KRAWL_COUNT").ok();
-    let count = count.and_then(|count| count.parse().ok()).unwrap_or(400);
-    campaign(count, 77);
+    campaign(wanted("KRAWL_COUNT", 400), 77);
 }
 
 fn molecule(name: &str) -> Complete {

@@ -2,6 +2,7 @@
 
 use crate::common::edits::Random;
 use crate::common::mixed::Spec;
+use crate::common::random::Dice;
 use krawl::complete::{self, Status, all};
 use krawl::edit::Limits;
 use krawl::interval::{Interval, hull};
@@ -24,21 +25,6 @@ fn within(problem: &Problem, tolerance: f64, asked: &[&str]) -> Result<Set, Stri
     };
     let options = (&Options::certified(), &search);
     study_all(problem, &limits, &asked, options, &mut Control::default())
-}
-
-/// Numbers from 0 to 1, the same each time.
-struct Dice(u64);
-
-impl Dice {
-    fn roll(&mut self) -> f64 {
-        let next = self.0.wrapping_mul(6364136223846793005);
-        self.0 = next.wrapping_add(1442695040888963407);
-        (self.0 >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    fn below(&mut self, n: usize) -> usize {
-        ((self.roll() * n as f64) as usize).min(n - 1)
-    }
 }
 
 /// Two triangles with a common side 4, the others 5 and 3, 4 and 3.
@@ -144,30 +130,34 @@ fn mirror_images_are_two_figures_where_the_coordinates_are_fixed() {
     }
 }
 
+fn below(dice: &mut Dice, n: usize) -> usize {
+    ((dice.uniform() * n as f64) as usize).min(n - 1)
+}
+
 /// A rigid framework in the plane, drawn as one of its figures.
 fn framework(dice: &mut Dice, points: usize) -> Problem {
     let mut bars = vec![[0, 1]];
     for p in 2..points {
         // On both ends of a bar in its place, and on a third point; or on two points.
-        let divided = p > 2 && dice.roll() < 0.4;
+        let divided = p > 2 && dice.uniform() < 0.4;
         let [a, b] = match divided {
-            true => bars.swap_remove(dice.below(bars.len())),
+            true => bars.swap_remove(below(dice, bars.len())),
             false => {
-                let a = dice.below(p);
-                [a, (a + 1 + dice.below(p - 1)) % p]
+                let a = below(dice, p);
+                [a, (a + 1 + below(dice, p - 1)) % p]
             }
         };
         bars.extend([[a, p], [b, p]]);
         if divided {
-            let mut c = dice.below(p);
+            let mut c = below(dice, p);
             while c == a || c == b {
-                c = dice.below(p);
+                c = below(dice, p);
             }
             bars.push([c, p]);
         }
     }
     let places: Vec<[f64; 2]> = (0..points)
-        .map(|_| [dice.roll(), dice.roll()].map(|x| (600.0 * x).round() / 100.0))
+        .map(|_| [dice.uniform(), dice.uniform()].map(|x| (600.0 * x).round() / 100.0))
         .collect();
     let name = |p: usize| format!("p{p}");
     let mut out = Problem::build("framework", 2);
@@ -207,9 +197,9 @@ fn campaign(count: usize, points: std::ops::Range<usize>) -> [usize; 2] {
         figures += bands.len();
         decided += usize::from(set.undecided.is_empty());
         for _ in 0..3 {
-            let chosen = chosen(&problem, &set.limits, || match dice.roll() {
-                x if x < 0.5 => dice.roll().round(),
-                _ => dice.roll(),
+            let chosen = chosen(&problem, &set.limits, || match dice.uniform() {
+                x if x < 0.5 => dice.uniform().round(),
+                _ => dice.uniform(),
             });
             let found = all(&chosen, &complete::Options::default()).unwrap();
             let found_pairs: Vec<Vec<Interval>> =
@@ -320,8 +310,8 @@ fn of_many_kinds(dimension: usize, tries: usize, seed: u64) -> [usize; 2] {
             for round in 0..4 {
                 let chosen = match round {
                     0 => problem.clone(),
-                    1 | 2 => chosen(&problem, &limits, || dice.roll().round()),
-                    _ => chosen(&problem, &limits, || dice.roll()),
+                    1 | 2 => chosen(&problem, &limits, || dice.uniform().round()),
+                    _ => chosen(&problem, &limits, || dice.uniform()),
                 };
                 let found = match all(&chosen, &search) {
                     Ok(found) if found.status == Status::Complete => found,

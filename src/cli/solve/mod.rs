@@ -9,10 +9,11 @@ mod told;
 use super::digits::ManyDigits;
 use super::edit::LeftOut;
 use super::measured::Measured;
-use super::output::{self, Beside, Destination, number};
+use super::output::{self, Beside, number};
 use super::pictures::Pictures;
+use super::results::Results;
 use super::take::Take;
-use super::{BAD_INPUT, CLOSED, input, interrupt};
+use super::{CLOSED, input, interrupt};
 use asked::Asked;
 use clap::ValueEnum;
 use krawl::track::{self, Options};
@@ -281,25 +282,20 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
     // Whatever is wrong is said before anything runs.
     let problems = arguments.files.iter().map(|file| arguments.read(file));
     let problems = problems.collect::<Result<Vec<Asked>, String>>()?;
-    let json = output::beside(&arguments.files, arguments.json.as_deref())?;
-    output::refuse_read(&arguments.files, arguments.cert.as_deref())?;
-    let pictures = arguments.pictures.places(&arguments.files)?;
+    let (files, named) = (&arguments.files, [arguments.json.as_deref(), None]);
+    let results = Results::open(files, named, &arguments.pictures, arguments.quiet)?;
+    output::refuse_read(files, arguments.cert.as_deref())?;
+    if results.on_standard_output() > 1 {
+        return Err("only one result can go to standard output".to_owned());
+    }
     // Before any file is begun, so that an interrupt leaves none behind.
     interrupt::flag();
     let cert = arguments.cert.as_deref().map(Beside::new).transpose()?;
-    let standard = json == Some(Destination::StandardOutput);
-    if standard && pictures.use_standard_output() {
-        return Err("only one result can go to standard output".to_owned());
-    }
-    let silent = arguments.quiet || standard || pictures.use_standard_output();
     let mut told = Told {
         arguments,
-        has_json: json.is_some(),
-        pictures,
+        results,
         cert,
-        silent,
         lines: String::new(),
-        written: true,
         worst: CLOSED,
     };
     for (k, (asked, file)) in problems.iter().zip(&arguments.files).enumerate() {
@@ -309,8 +305,6 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
     }
     // With one problem the file is written even where nobody reads the table any more: `print` does not fail
     // for that.
-    if let Some(json) = &json {
-        told.written &= json.write(&told.lines);
-    }
-    Ok(if told.written { told.worst } else { BAD_INPUT })
+    told.results.write_json(|| told.lines);
+    Ok(told.results.code(told.worst))
 }

@@ -8,7 +8,7 @@ use super::{Arguments, Mode, input, interrupt};
 use crate::cli::edit::say_if_it_moves;
 use crate::cli::measured::placed;
 use crate::cli::output::{self, Beside};
-use crate::cli::pictures::Places;
+use crate::cli::results::Results;
 use crate::cli::take::{Candidates, Taken};
 use crate::cli::{BAD_INPUT, CLOSED, LIMIT, OPEN, STOPPED};
 use krawl::blocks::clusters;
@@ -28,14 +28,10 @@ use std::time::{Duration, Instant};
 /// Where results go, and what came of all files so far.
 pub(super) struct Told<'a> {
     pub arguments: &'a Arguments,
-    pub has_json: bool,
-    pub pictures: Places<'a>,
+    pub results: Results<'a>,
     pub cert: Option<Beside>,
-    pub silent: bool,
     /// Results as JSON, a line for each.
     pub lines: String,
-    /// Whether all could be written.
-    pub written: bool,
     /// The gravest exit code.
     pub worst: u8,
 }
@@ -55,7 +51,7 @@ impl Told<'_> {
         let (arguments, problem) = (self.arguments, &asked.problem);
         // That these are none is said first.
         arguments.measured.of(problem)?;
-        if !self.silent && !arguments.summary {
+        if self.results.is_told() && !arguments.summary {
             say_if_it_moves(problem);
         }
         let gap = match k == 0 || arguments.summary {
@@ -78,13 +74,11 @@ impl Told<'_> {
         text: impl FnOnce() -> String,
         code: u8,
     ) -> Result<(), String> {
-        self.written &= self.pictures.write_page(|| page.clone())?;
-        if self.has_json {
+        self.results.write_page(|| page.clone())?;
+        if self.results.has_json() {
             self.lines += &(line.to_string() + "\n");
         }
-        if !self.silent {
-            self.written &= output::print(&text());
-        }
+        self.results.print(text);
         self.worst = worse(self.worst, code);
         Ok(())
     }
@@ -105,8 +99,9 @@ impl Told<'_> {
                 return Ok(());
             }
         };
-        self.written &= arguments.take_of(&found, (problem, file));
-        let alone = match found.value["count"] == 0 && (!self.silent || self.has_json) {
+        self.results
+            .note(arguments.take_of(&found, (problem, file)));
+        let alone = match found.value["count"] == 0 && self.results.are_read() {
             true => arguments.alone(problem),
             false => Vec::new(),
         };
@@ -139,7 +134,8 @@ impl Told<'_> {
         if problem.is_absolute()
             && let Some(found) = arguments.instead(problem, reason, unbounded)
         {
-            self.written &= arguments.take_of(&found, (problem, file));
+            self.results
+                .note(arguments.take_of(&found, (problem, file)));
             let mut whole = Run::new(problem, options, outcome).to_value();
             whole["by_blocks"] = found.value.clone();
             let text = || match arguments.cert {
@@ -182,7 +178,7 @@ impl Told<'_> {
         {
             let what = "the solutions listed are of parts of the figure, none of which is written, measured or told to more digits";
             output::complain(&format!("{name}: {what}"));
-            self.written = false;
+            self.results.note(false);
         }
         Ok(true)
     }
@@ -199,8 +195,8 @@ impl Told<'_> {
         let measures = arguments.measured.of(problem)?;
         let is_certified = arguments.mode == Mode::Certified;
         let mut trace = Trace::default();
-        let shown = !self.pictures.is_empty();
-        let wants_path = (self.has_json || shown) && is_certified;
+        let shown = !self.results.pictures.is_empty();
+        let wants_path = (self.results.has_json() || shown) && is_certified;
         let samples = match arguments.samples {
             Some(samples) => samples,
             None if arguments.pictures.want_path() => samples_for(problem),
@@ -215,7 +211,7 @@ impl Told<'_> {
             let trace = wants_path.then_some(&mut trace);
             follow(arguments, problem, &name, which, self.cert.as_ref(), trace)?
         };
-        self.written &= well;
+        self.results.note(well);
         let surplus = asked.surplus.as_ref();
         let tested = surplus.map(|surplus| surplus.test(&mut outcome));
         let tested = tested.as_ref();
@@ -258,7 +254,8 @@ impl Told<'_> {
         };
         let from = (file, arguments.sketch.as_deref());
         let figure = |number| Taken::of(problem, &outcome.solutions[number as usize], false);
-        self.written &= arguments.take.write(from, problem, candidates, figure);
+        self.results
+            .note(arguments.take.write(from, problem, candidates, figure));
         let is_tested = tested.is_none_or(Tested::is_decided);
         let is_undecided = is_certified && (!is_tested || signed.undecided > 0);
         self.worst = match (&outcome.status, self.worst) {
@@ -283,8 +280,8 @@ impl Told<'_> {
             tested,
             ..Run::new(problem, &options, &outcome)
         };
-        self.written &= self.pictures.write_page(|| run.to_value())?;
-        if !self.silent {
+        self.results.write_page(|| run.to_value())?;
+        self.results.print(|| {
             let part = tested.map_or_else(String::new, |tested| part_in_words(tested) + "\n");
             let summary = || to_summary(problem, &outcome, tested);
             let text = match (first, arguments.first) {
@@ -322,33 +319,33 @@ impl Told<'_> {
             );
             let hints = hints(problem, &outcome, &name);
             let whole = arguments.whole_in_words(file);
-            self.written &= output::print(&format!("{gap}{whole}{text}{measured}{many}{hints}"));
-        }
+            format!("{gap}{whole}{text}{measured}{many}{hints}")
+        });
         // What the path came to is out by now.
-        let is_told = (!self.silent || self.has_json) && tested.is_none();
+        let is_told = self.results.are_read() && tested.is_none();
         let has_none = outcome.status == Status::Closed && outcome.solutions.is_empty();
         let alone = match has_none && is_told && struck == 0 {
             true => arguments.alone(problem),
             false => Vec::new(),
         };
-        if !self.silent {
-            self.written &= output::print(&alone_in_words(&alone));
-        }
+        self.results.print(|| alone_in_words(&alone));
         let among = arguments.among(problem, &outcome, is_told);
-        if let Some(among) = among
-            && !self.silent
-            && !arguments.summary
-        {
-            self.written &= output::print(&among_in_words(among));
+        if let Some(among) = among.filter(|_| !arguments.summary) {
+            self.results.print(|| among_in_words(among));
         }
-        if self.has_json {
+        if self.results.has_json() {
             let figures = outcome.solutions.iter().map(placed);
-            let measured = (!measures.is_empty()).then(|| measures.to_value(figures));
-            let many = arguments
-                .many
-                .is_wanted()
-                .then(|| digits_to_value(problem, &many));
-            self.lines += &(run.to_json_among(among, &alone, (measured, many)) + "\n");
+            let is_wanted = arguments.many.is_wanted();
+            let more = [
+                ("of_all", among.map(|among| among.all.into())),
+                ("alone", (!alone.is_empty()).then(|| alone_to_value(&alone))),
+                (
+                    "measures",
+                    (!measures.is_empty()).then(|| measures.to_value(figures)),
+                ),
+                ("digits", is_wanted.then(|| digits_to_value(problem, &many))),
+            ];
+            self.lines += &(run.to_json_with(more) + "\n");
         }
         Ok(interrupt::is_requested())
     }

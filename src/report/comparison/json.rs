@@ -6,6 +6,7 @@ use crate::problem::Published;
 use crate::report::json::{JSON_VERSION, text};
 use crate::track::StopKind;
 use serde::Serialize;
+use serde_json::{Value, json};
 
 /// Comparisons as one line of JSON:
 ///
@@ -54,7 +55,7 @@ struct ProblemEntry<'a> {
     reference_is_arc: bool,
     rows: Vec<RowEntry<'a>>,
     sweep: Vec<RowEntry<'a>>,
-    published: Vec<PublishedEntry<'a>>,
+    published: Vec<Value>,
 }
 
 #[derive(Serialize)]
@@ -80,21 +81,13 @@ pub(super) struct RowEntry<'a> {
     pub switched_on: &'a [String],
     pub verdict: &'static str,
     faults: Vec<FaultEntry>,
-    published: Option<PublishedEntry<'a>>,
+    published: Option<Value>,
 }
 
 #[derive(Serialize)]
 struct FaultEntry {
     fault: &'static str,
     amount: Option<f64>,
-}
-
-#[derive(Serialize)]
-struct PublishedEntry<'a> {
-    method: &'a str,
-    steps: Option<usize>,
-    seconds: Option<f64>,
-    solutions: Option<usize>,
 }
 
 fn problem(compared: &Compared) -> ProblemEntry<'_> {
@@ -166,11 +159,11 @@ fn fault(fault: &Fault) -> FaultEntry {
     FaultEntry { fault, amount }
 }
 
-fn published(published: &Published) -> PublishedEntry<'_> {
-    PublishedEntry {
-        method: &published.method,
-        steps: published.steps,
-        seconds: published.seconds,
-        solutions: published.solutions,
-    }
+fn published(published: &Published) -> Value {
+    json!({
+        "method": published.method,
+        "steps": published.steps,
+        "seconds": published.seconds,
+        "solutions": published.solutions,
+    })
 }

@@ -4,8 +4,9 @@
 //! coordinates held where they are, and a claim about it is true only with both in the same sentence. Every verb says it
 //! with the same words, [`Account::clause`], and writes it as the same JSON.
 
+use super::whose::Whose;
 use crate::interval::{Interval, hull, point};
-use crate::problem::{Decimal, Problem, Target, either};
+use crate::problem::{Decimal, Problem, either};
 use serde::Serialize;
 
 /// Names in one list of a sentence; the others are counted.
@@ -387,32 +388,24 @@ pub(crate) struct Ruler {
 }
 
 impl Ruler {
-    /// For an equation of this `owner` (a count of objects, constraints, none, distances), in a figure of mean length `unit`.
+    /// For an equation of this `owner`, in a figure of mean length `unit`.
     /// `tolerance`: what counts as met, where that is not told by the digits of numbers.
     pub fn new(
         problem: &Problem,
-        owner: usize,
+        owner: Whose,
         (unit, power): (f64, i32),
         tolerance: Option<f64>,
     ) -> Self {
-        let (objects, all) = (problem.objects.len(), problem.constraints.len());
+        let is_square = matches!(owner, Whose::Distance(_));
         let least = LEAST_PART * unit;
-        let digits = match owner.checked_sub(objects) {
-            Some(c) if c < all => {
-                let value = problem.constraints[c].value.as_ref();
-                value.filter(|_| power == 1).map_or(0.0, half_digit)
-            }
-            Some(c) if c > all => match &problem.distances[c - all - 1].target {
-                Target::Length(length) => half_digit(length),
-                // Of a square s with an error e the root has one of e / (2 √s).
-                Target::SquaredLength(squared) => {
-                    half_digit(squared) / (2.0 * squared.to_f64().sqrt())
-                }
-            },
+        let digits = match owner.number(problem) {
+            // Of a square s with an error e the root has one of e / (2 √s).
+            Some((squared, true)) => half_digit(squared) / (2.0 * squared.to_f64().sqrt()),
+            Some((number, false)) if is_square || power == 1 => half_digit(number),
             _ => 0.0,
         };
         Ruler {
-            is_square: owner > objects + all,
+            is_square,
             scale: unit.powi(power - 1),
             epsilon: tolerance.unwrap_or(digits.max(least)),
         }

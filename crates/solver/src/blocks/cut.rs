@@ -3,6 +3,7 @@
 use super::drawn::{Drawn, Floats, look};
 use super::follows::{Combination, Given, combination};
 use super::singular::Singular;
+use super::whose::Whose;
 use super::{Account, Block, Blocks, COARSE, Choice, Held, Row, Ruler, System, Verdict};
 use crate::constraint::{
     Entry, Fault, Lowered, Owner, Posed, Record, Role, Tail, own_number, try_lower_all,
@@ -53,8 +54,8 @@ pub(crate) struct Cut {
     pub record: Record,
     /// A power of two near the mean length.
     pub unit: f64,
-    /// Whose equation each of the problem's is: objects, constraints, none, distances.
-    pub owners: Vec<usize>,
+    /// Whose equation each of the problem's is.
+    pub owners: Vec<Whose>,
     /// Whether the same figure has several solutions, as with a line or plane of its own, whose direction has two signs.
     pub has_twins: bool,
     /// Where the drawing is singular: what is so about it, and how far it was moved off that.
@@ -84,20 +85,6 @@ fn has_twins(tail: &Tail) -> bool {
         basis.push(row);
     }
     false
-}
-
-/// Which of a problem's equations are rather used than left out where not all are needed: the less the rather.
-pub(crate) fn keep(problem: &Problem, owner: usize) -> u8 {
-    let (objects, all) = (problem.objects.len(), problem.constraints.len());
-    match owner.checked_sub(objects) {
-        None => 1,
-        Some(c) if c < all => match &problem.constraints[c] {
-            constraint if constraint.kind.as_str() == "fixed" => 0,
-            constraint if constraint.value.is_some() => 2,
-            _ => 3,
-        },
-        Some(_) => 2,
-    }
 }
 
 /// A problem without a bend and its equations, or what is at fault in words.
@@ -161,34 +148,27 @@ impl Cut {
     /// The same; a singular drawing is moved off that place in one of several ways, two and two in opposite directions.
     pub fn drawn(problem: &Problem, way: u64) -> Result<Self, String> {
         let (problem, lowered) = straight(problem)?;
-        let owner_is_dimension = |owner: usize| {
-            let (objects, all) = (problem.objects.len(), problem.constraints.len());
-            match owner.checked_sub(objects) {
-                None => false,
-                Some(c) if c < all => problem.constraints[c].value.is_some(),
-                Some(c) => c > all,
-            }
-        };
-        let mut system = System::new(&problem, &lowered, |index| {
-            owner_is_dimension(lowered.owners[index])
-        });
+        let of = |&owner| Whose::of(&problem, owner);
+        let owners: Vec<Whose> = lowered.owners.iter().map(of).collect();
+        let is_dimension = |index: usize| owners[index].number(&problem).is_some();
+        let mut system = System::new(&problem, &lowered, is_dimension);
         let has_twins = has_twins(&lowered.tail);
         let unit = typical_length(&problem);
         let at = system.sketch(unit);
         let later = system.later();
-        // What is fixed is left out last, dimensions after what has no number.
-        let kept = |row: usize| keep(&problem, lowered.owners[system.rows[row].index]);
+        let kept = |row: usize| owners[system.rows[row].index].keep(&problem);
         let mut choice = Choice::new(&system, &at, &later, kept, COARSE);
         let equations = &lowered.tail.equations;
         let rows = system.rows.iter();
-        let structural = rows.map(|row| !owner_is_dimension(lowered.owners[row.index]));
+        let structural = rows.map(|row| !is_dimension(row.index));
         let structural: Vec<bool> = structural.collect();
         let floats = Floats::new(&system, equations, unit);
         let mut moved_rights: Vec<(usize, Vec<Real>)> = Vec::new();
         let (mut singular, mut drawn) = (None, None);
         if let Drawn::Singular { rows, off } = look(&floats, &structural, (&at, &choice), way) {
-            let owner = |row: usize| lowered.owners[system.rows[row].index];
-            let mut place = Singular::new(&problem, &system, &rows, owner);
+            let name = |&row: &usize| owners[system.rows[row].index].name(&problem);
+            let names = rows.iter().map(name);
+            let mut place = Singular::new(&problem, &system, &rows, names);
             if let Some(off) = off {
                 choice = Choice::new(&system, &off, &later, kept, COARSE);
                 place.moved = Some(system.moved(&off, problem.dimension, unit));
@@ -201,12 +181,7 @@ impl Cut {
         let blocks = Blocks::of(&used, &system)
             .ok_or("its equations do not match its unknowns: the sketch is singular")?;
         let is_exact = is_exact(&blocks, &used, &system);
-        let Lowered {
-            tail,
-            owners,
-            record,
-            ..
-        } = lowered;
+        let Lowered { tail, record, .. } = lowered;
         let numbers = problem
             .objects
             .iter()
@@ -337,7 +312,7 @@ impl Cut {
     }
 
     /// Whose equation a row is, see [`Cut::owners`].
-    pub fn owner(&self, row: usize) -> usize {
+    pub fn owner(&self, row: usize) -> Whose {
         self.owners[self.system.rows[row].index]
     }
 
@@ -368,27 +343,11 @@ impl Cut {
 
     /// What people call a constraint, by its index.
     pub fn constraint_name(&self, constraint: usize) -> String {
-        name(&self.problem, self.problem.objects.len() + constraint)
+        Whose::Constraint(constraint).name(&self.problem)
     }
 
-    /// See [`name`].
+    /// What people call whoever says an equation.
     pub fn name(&self, equation: usize) -> String {
-        name(&self.problem, self.owners[equation])
-    }
-}
-
-/// What people call the owner of an equation, a count of objects, constraints, none, and distances.
-pub(crate) fn name(problem: &Problem, owner: usize) -> String {
-    let (objects, all) = (problem.objects.len(), problem.constraints.len());
-    match owner.checked_sub(objects) {
-        None => format!("`{}`", problem.objects[owner].name),
-        Some(c) if c < all => {
-            let index = problem.distances.len() + c;
-            match problem.labels.get(&index) {
-                Some(label) => format!("`{label}` ({})", problem.constraint_name(c)),
-                None => format!("`{}`", problem.constraint_name(c)),
-            }
-        }
-        Some(c) => format!("`{}`", problem.dimension_name(c - all - 1)),
+        self.owners[equation].name(&self.problem)
     }
 }

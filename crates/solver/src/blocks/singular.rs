@@ -1,7 +1,6 @@
 //! What is said of a singular drawing.
 
 use super::System;
-use super::cut::name;
 use crate::order::InOrder;
 use crate::places::Each as _;
 use crate::problem::{Problem, list};
@@ -29,16 +28,15 @@ pub struct Singular {
 }
 
 impl Singular {
-    /// Of the rows that depend on each other; `owner`: whose equation a row is.
+    /// Of the rows that depend on each other; `names`: whose they are.
     pub(crate) fn new(
         problem: &Problem,
         system: &System,
         rows: &[usize],
-        owner: impl Fn(usize) -> usize,
+        names: impl Iterator<Item = String>,
     ) -> Self {
         let mut constraints: Vec<String> = Vec::new();
-        for &row in rows {
-            let name = name(problem, owner(row));
+        for name in names {
             if !constraints.contains(&name) {
                 constraints.push(name);
             }

@@ -9,13 +9,14 @@
 
 use super::account::half_digit;
 use super::choose::PIVOT;
-use super::cut::{name, straight};
+use super::cut::straight;
 use super::drawn::{Drawn, Floats, look};
 use super::follows::{Given, combination};
+use super::whose::Whose;
 use super::{Choice, FINE, LEAST_PART, System};
 use crate::interval::{enclose_rational, point};
 use crate::order::InOrder;
-use crate::problem::{Problem, Target, list};
+use crate::problem::{Problem, list};
 use crate::system::typical_length;
 use nalgebra::DVector;
 use std::collections::{BTreeMap, BTreeSet};
@@ -104,10 +105,8 @@ pub fn surplus(problem: &Problem) -> Result<Census, String> {
     let equations = &lowered.tail.equations;
     let target = |row: usize| equations[system.rows[row].index].target();
     let rows = 0..system.rows.len();
-    let owners: Vec<usize> = rows
-        .clone()
-        .map(|row| lowered.owners[system.rows[row].index])
-        .collect();
+    let owner = |row: usize| Whose::of(&problem, lowered.owners[system.rows[row].index]);
+    let owners: Vec<Whose> = rows.clone().map(owner).collect();
     let ranks: Vec<u8> = owners.iter().map(|&owner| rank(&problem, owner)).collect();
     let scale = |row: usize| unit.powi(equations[system.rows[row].index].power);
     let floats = Floats::new(&system, equations, unit);
@@ -139,7 +138,7 @@ pub fn surplus(problem: &Problem) -> Result<Census, String> {
         None => system.rows[row].steepness(&at).0 * scale(row) / unit,
     };
     let slack = |row: usize| steepest(row) * digits_of(&problem, owners[row]);
-    let mut found: BTreeMap<usize, (Surplus, usize)> = BTreeMap::new();
+    let mut found: BTreeMap<Whose, (Surplus, usize)> = BTreeMap::new();
     for (row, circuit) in circuits {
         if ranks[row] == OBJECT {
             continue;
@@ -200,7 +199,7 @@ pub fn surplus(problem: &Problem) -> Result<Census, String> {
             (None, None) => Finding::Open,
         };
         let one = Surplus {
-            name: name(&problem, owners[row]),
+            name: owners[row].name(&problem),
             in_part: false,
             others: Vec::new(),
             besides: Vec::new(),
@@ -216,7 +215,7 @@ pub fn surplus(problem: &Problem) -> Result<Census, String> {
                 OBJECT | FIXED | COINCIDENT => &mut one.besides,
                 _ => &mut one.others,
             };
-            let name = name(&problem, owners[k]);
+            let name = owners[k].name(&problem);
             if !into.contains(&name) {
                 into.push(name);
             }
@@ -235,44 +234,38 @@ const COINCIDENT: u8 = 2;
 const DIMENSION: u8 = 5;
 
 /// Of which kind an equation is: of those that depend on each other the last is said to be one too many.
-fn rank(problem: &Problem, owner: usize) -> u8 {
-    let (objects, all) = (problem.objects.len(), problem.constraints.len());
-    match owner.checked_sub(objects) {
-        None => OBJECT,
-        Some(c) if c < all => match (
-            problem.constraints[c].kind.as_str(),
-            &problem.constraints[c].value,
-        ) {
-            ("fixed", _) => FIXED,
-            ("coincident", _) => COINCIDENT,
-            (_, Some(_)) => DIMENSION,
-            (kind, None) if kind.starts_with("equal") => 4,
-            _ => 3,
-        },
-        Some(_) => DIMENSION,
+fn rank(problem: &Problem, owner: Whose) -> u8 {
+    let Whose::Constraint(c) = owner else {
+        return match owner {
+            Whose::Object(_) => OBJECT,
+            _ => DIMENSION,
+        };
+    };
+    let constraint = &problem.constraints[c];
+    match constraint.kind.as_str() {
+        "fixed" => FIXED,
+        "coincident" => COINCIDENT,
+        _ if constraint.value.is_some() => DIMENSION,
+        kind if kind.starts_with("equal") => 4,
+        _ => 3,
     }
 }
 
 /// The length that an equation is about, if it is one of a distance.
-fn distance(problem: &Problem, owner: usize) -> Option<f64> {
-    let first = problem.objects.len() + problem.constraints.len() + 1;
-    let distance = problem.distances.get(owner.checked_sub(first)?)?;
-    let squared = enclose_rational(&distance.target.squared());
+fn distance(problem: &Problem, owner: Whose) -> Option<f64> {
+    let Whose::Distance(e) = owner else {
+        return None;
+    };
+    let squared = enclose_rational(&problem.distances[e].target.squared());
     Some(squared.sqrt().mid().max(f64::MIN_POSITIVE))
 }
 
-/// Half a unit of the last digit of a constraint's number; 0 where it has none, or a squared one.
-fn digits_of(problem: &Problem, owner: usize) -> f64 {
-    let (objects, all) = (problem.objects.len(), problem.constraints.len());
-    let number = match owner.checked_sub(objects) {
-        Some(c) if c < all => problem.constraints[c].value.as_ref(),
-        Some(c) if c > all => match &problem.distances[c - all - 1].target {
-            Target::Length(length) => Some(length),
-            Target::SquaredLength(_) => None,
-        },
-        _ => None,
-    };
-    number.map_or(0.0, half_digit)
+/// Half a unit of the last digit of an equation's number; 0 where it has none, or a squared one.
+fn digits_of(problem: &Problem, owner: Whose) -> f64 {
+    match owner.number(problem) {
+        Some((number, false)) => half_digit(number),
+        _ => 0.0,
+    }
 }
 
 /// Rows that are combinations of others, each with those others and their parts in it.

@@ -143,14 +143,15 @@ impl<R: Read> Reader<R> {
         let n = self.unknowns + 1;
         let input = &mut self.input;
         let tube = TubeClaim {
-            centre: floats(input, n, WHAT)?,
-            low: floats(input, if extended { n } else { 0 }, WHAT)?,
-            normal: (0..n)
-                .map(|_| Ok(f32::from_le_bytes(array(input, WHAT)?)))
-                .collect::<Result<_>>()?,
-            weights: (0..n)
-                .map(|_| Ok(u16::from_le_bytes(array(input, WHAT)?)))
-                .collect::<Result<_>>()?,
+            centre: numbers(input, n, f64::from_le_bytes, WHAT)?,
+            low: numbers(
+                input,
+                if extended { n } else { 0 },
+                f64::from_le_bytes,
+                WHAT,
+            )?,
+            normal: numbers(input, n, f32::from_le_bytes, WHAT)?,
+            weights: numbers(input, n, u16::from_le_bytes, WHAT)?,
             h: f64::from_le_bytes(array(input, WHAT)?),
             r: f32::from_le_bytes(array(input, WHAT)?),
             exit: f64::from_le_bytes(array(input, WHAT)?),
@@ -185,7 +186,7 @@ impl<R: Read> Reader<R> {
     fn figure(&mut self) -> Result<SolutionClaim> {
         const WHAT: &str = "a solution";
         let figure = SolutionClaim {
-            centre: floats(&mut self.input, self.unknowns, WHAT)?,
+            centre: numbers(&mut self.input, self.unknowns, f64::from_le_bytes, WHAT)?,
             radius: f32::from_le_bytes(array(&mut self.input, WHAT)?),
         };
         let numbers = figure.centre.iter().all(|&x| in_range(x));
@@ -276,9 +277,7 @@ impl<R: Read> Reader<R> {
                 self.tubes, self.solutions
             )));
         }
-        let classes = (0..count)
-            .map(|_| Ok(u32::from_le_bytes(array(input, WHAT)?)))
-            .collect::<Result<_>>()?;
+        let classes = numbers(input, count as usize, u32::from_le_bytes, WHAT)?;
         match fill(input, &mut [0], WHAT) {
             Err(FormatError::Truncated(_)) => {}
             Err(error) => return Err(error),
@@ -336,8 +335,12 @@ fn count(input: &mut impl Read, most: usize) -> Result<u32> {
     }
 }
 
-fn floats(input: &mut impl Read, count: usize, what: &'static str) -> Result<Vec<f64>> {
-    (0..count)
-        .map(|_| Ok(f64::from_le_bytes(array(input, what)?)))
-        .collect()
+/// So many numbers, each of these bytes.
+fn numbers<T, const N: usize>(
+    input: &mut impl Read,
+    count: usize,
+    of: impl Fn([u8; N]) -> T,
+    what: &'static str,
+) -> Result<Vec<T>> {
+    (0..count).map(|_| Ok(of(array(input, what)?))).collect()
 }

@@ -463,15 +463,10 @@ pub fn write_record(out: &mut impl Write, record: &Record) -> io::Result<()> {
             } else {
                 TAG_EXTENDED
             }])?;
-            for x in tube.centre.iter().chain(&tube.low) {
-                out.write_all(&x.to_le_bytes())?;
-            }
-            for x in &tube.normal {
-                out.write_all(&x.to_le_bytes())?;
-            }
-            for x in &tube.weights {
-                out.write_all(&x.to_le_bytes())?;
-            }
+            let centre = tube.centre.iter().chain(&tube.low);
+            write_all(out, centre.map(|x| x.to_le_bytes()))?;
+            write_all(out, tube.normal.iter().map(|x| x.to_le_bytes()))?;
+            write_all(out, tube.weights.iter().map(|x| x.to_le_bytes()))?;
             out.write_all(&tube.h.to_le_bytes())?;
             out.write_all(&tube.r.to_le_bytes())?;
             out.write_all(&tube.exit.to_le_bytes())
@@ -490,9 +485,7 @@ pub fn write_record(out: &mut impl Write, record: &Record) -> io::Result<()> {
             }
             out.write_all(&(arc.kept.len() as u32).to_le_bytes())?;
             for (points, positive) in &arc.kept {
-                for point in points {
-                    out.write_all(&point.to_le_bytes())?;
-                }
+                write_all(out, points.iter().map(|point| point.to_le_bytes()))?;
                 out.write_all(&[(*positive).into()])?;
             }
             Ok(())
@@ -520,18 +513,21 @@ pub fn write_record(out: &mut impl Write, record: &Record) -> io::Result<()> {
             }
             out.write_all(&end.tubes.to_le_bytes())?;
             out.write_all(&(end.classes.len() as u32).to_le_bytes())?;
-            for class in &end.classes {
-                out.write_all(&class.to_le_bytes())?;
-            }
-            Ok(())
+            write_all(out, end.classes.iter().map(|class| class.to_le_bytes()))
         }
     }
 }
 
+/// Writes numbers, each as these bytes.
+fn write_all<const N: usize>(
+    out: &mut impl Write,
+    mut numbers: impl Iterator<Item = [u8; N]>,
+) -> io::Result<()> {
+    numbers.try_for_each(|bytes| out.write_all(&bytes))
+}
+
 fn write_figure(out: &mut impl Write, tag: u8, figure: &SolutionClaim) -> io::Result<()> {
     out.write_all(&[tag])?;
-    for x in &figure.centre {
-        out.write_all(&x.to_le_bytes())?;
-    }
+    write_all(out, figure.centre.iter().map(|x| x.to_le_bytes()))?;
     out.write_all(&figure.radius.to_le_bytes())
 }

@@ -6,8 +6,9 @@
 
 use super::Unserved;
 use super::pairs::Pairs;
-use super::plan::{Drive, HingeNumbers, Kind, Plan, Radius, Step, base_coordinates};
+use super::plan::{HingeNumbers, Plan, Step, base_coordinates};
 use super::targets::Targets;
+use crate::certificate::cover::{Kind, Radius};
 use crate::order::InOrder;
 
 /// More driving parameters than this are hopeless.
@@ -69,7 +70,7 @@ struct Draft<'a> {
     placed: Vec<bool>,
     depth: Vec<u32>,
     steps: Vec<Step>,
-    drives: Vec<Drive>,
+    drives: Vec<Option<[f64; 2]>>,
     plans: Vec<(f64, Plan)>,
     choices: usize,
 }
@@ -140,7 +141,8 @@ impl<'a> Draft<'a> {
                     (standing.len(), std::cmp::Reverse((deep, *p)))
                 });
             let Some((standing, p)) = next else { break };
-            let kind = self.meet(p, &standing);
+            let centres = self.centres(&standing).into_iter();
+            let kind = Kind::Meet(centres.map(|q| (q, Radius::Given)).collect());
             self.push(p, kind);
         }
         if self.steps.len() + d == self.targets.points {
@@ -177,23 +179,12 @@ impl<'a> Draft<'a> {
         }
     }
 
-    /// How a point is placed from neighbours, without a parameter.
-    fn meet(&self, p: usize, standing: &[usize]) -> Kind {
-        let centres = self.centres(standing);
-        let radius = |&q: &usize| Radius::Edge(self.targets.edge(p, q).expect("a neighbour"));
-        let radii = centres.iter().map(radius).collect();
-        Kind::Meet { centres, radii }
-    }
-
     fn push(&mut self, p: usize, kind: Kind) {
         let from = kind.from();
         let used = |q: usize| match &kind {
-            Kind::Hinge { frame, .. } => frame[..2].contains(&q),
-            Kind::Meet { centres, radii } => centres
-                .iter()
-                .zip(radii)
-                .any(|(&c, r)| c == q && matches!(r, Radius::Edge(_))),
-            Kind::Arm { centre, .. } => *centre == q,
+            Kind::Hinge(frame, _) => frame[..2].contains(&q),
+            Kind::Meet(centres) => centres.contains(&(q, Radius::Given)),
+            Kind::Arm(centre, _) => *centre == q,
         };
         let closing = self.neighbours[p]
             .iter()
@@ -255,14 +246,10 @@ impl<'a> Draft<'a> {
     }
 
     /// How a point is placed with driving parameters of its own.
-    fn driven(&self, p: usize, standing: &[usize]) -> Option<(Kind, Vec<Drive>)> {
+    fn driven(&self, p: usize, standing: &[usize]) -> Option<(Kind, Vec<Option<[f64; 2]>>)> {
         let parameter = self.drives.len();
         if self.targets.dimension == 2 {
-            let kind = Kind::Arm {
-                centre: standing[0],
-                parameter,
-            };
-            return Some((kind, vec![Drive::Angle]));
+            return Some((Kind::Arm(standing[0], parameter), vec![None]));
         }
         if let [c1, c2] = standing[..]
             && self.targets.edge(c1, c2).is_some()
@@ -276,29 +263,24 @@ impl<'a> Draft<'a> {
                 })
                 .min_by_key(|&q| (self.depth[q], q));
             if let Some(q) = third {
-                let frame = [c1, c2, q];
-                return Some((Kind::Hinge { frame, parameter }, vec![Drive::Angle]));
+                return Some((Kind::Hinge([c1, c2, q], parameter), vec![None]));
             }
         }
         // Distances that are not given take the place of those that are missing.
-        let mut centres = standing.to_vec();
+        let given = standing.iter().map(|&q| (q, Radius::Given));
+        let mut centres: Vec<(usize, Radius)> = given.collect();
         let mut others: Vec<usize> = (0..self.targets.points)
             .filter(|&q| self.placed[q] && q != p && !standing.contains(&q))
             .collect();
         others.order_by_key(|&q| (self.depth[q], q));
-        let mut radii: Vec<Radius> = standing
-            .iter()
-            .map(|&q| Radius::Edge(self.targets.edge(p, q).expect("a neighbour")))
-            .collect();
         let mut drives = Vec::new();
         for q in others.into_iter().take(3 - standing.len()) {
             let [least, most] = self.pairs.squares(p, q);
-            radii.push(Radius::Parameter(parameter + drives.len()));
+            centres.push((q, Radius::Parameter(parameter + drives.len())));
             // A little more, so that who bounds it with other roundings comes to less.
-            drives.push(Drive::Square([least * (1.0 - 1e-9), most * (1.0 + 1e-9)]));
-            centres.push(q);
+            drives.push(Some([least * (1.0 - 1e-9), most * (1.0 + 1e-9)]));
         }
-        (centres.len() == 3).then_some((Kind::Meet { centres, radii }, drives))
+        (centres.len() == 3).then_some((Kind::Meet(centres), drives))
     }
 
     /// A guess at how much work the plan is; the samples know more.
@@ -308,9 +290,10 @@ impl<'a> Draft<'a> {
         for step in &self.steps {
             let deep = f64::from(self.depth[step.point]);
             let moving = match &step.kind {
-                Kind::Meet { centres, .. } => {
-                    let pair =
-                        |a: usize, b: usize| self.targets.edge(centres[a], centres[b]).is_none();
+                Kind::Meet(centres) => {
+                    let pair = |a: usize, b: usize| {
+                        self.targets.edge(centres[a].0, centres[b].0).is_none()
+                    };
                     let pairs = match centres.len() {
                         2 => [pair(0, 1), false, false],
                         _ => [pair(0, 1), pair(1, 2), pair(2, 0)],

@@ -1,9 +1,8 @@
 //! The cover of the search space, as the search leaves it for the check.
 
 use super::krawczyk::Figure;
-use super::plan::{Drive, Kind, Plan, Radius};
 use super::search::Search;
-use crate::certificate::cover::{self, Cover, Mark};
+use crate::certificate::cover::Mark;
 use crate::problem::Problem;
 use serde::{Deserialize, Serialize};
 
@@ -98,46 +97,10 @@ pub fn file(
 ) -> Option<Vec<u8>> {
     let length = marks.bytes()?;
     let pieces = marks.pieces?;
-    let unit = search.targets.unit.log2();
-    let cover = Cover {
-        problem: problem.to_toml(),
-        base: search.plan.base.clone(),
-        steps: steps(&search.plan),
-        drives: search
-            .plan
-            .drives
-            .iter()
-            .map(|drive| match drive {
-                Drive::Angle => None,
-                Drive::Square(bounds) => Some(*bounds),
-            })
-            .collect(),
-        figures: figures.iter().map(|figure| figure.centre.clone()).collect(),
-        unit_exponent: unit as i16,
-        marks: Vec::new(),
-    };
+    let cover = search.plan.cover(problem, search.targets.unit, figures);
     let mut bytes = cover.head(length);
     bytes.reserve_exact(length);
     // Each piece's memory is free as soon as it is in its place.
     pieces.into_iter().for_each(|piece| bytes.extend(piece));
     Some(bytes)
-}
-
-fn steps(plan: &Plan) -> Vec<(usize, cover::Kind)> {
-    let kind = |kind: &Kind| match kind {
-        Kind::Arm { centre, parameter } => cover::Kind::Arm(*centre, *parameter),
-        Kind::Hinge { frame, parameter } => cover::Kind::Hinge(*frame, *parameter),
-        Kind::Meet { centres, radii } => {
-            let radius = |radius: &Radius| match radius {
-                Radius::Edge(_) => cover::Radius::Given,
-                Radius::Parameter(k) => cover::Radius::Parameter(*k),
-            };
-            let pairs = centres.iter().zip(radii);
-            cover::Kind::Meet(pairs.map(|(p, r)| (*p, radius(r))).collect())
-        }
-    };
-    plan.steps
-        .iter()
-        .map(|step| (step.point, kind(&step.kind)))
-        .collect()
 }

@@ -6,7 +6,7 @@
 //! halves of sums of squared distances, and Δ = AB − C² > 0, the squared height is N/Δ with N = rΔ − (q₁²B − 2q₁q₂C + q₂²A); in the
 //! plane Δ = A and N = rA − q₁².
 
-use crate::blocks::{Account, LeftOut, Ruler, Verdict, seen};
+use crate::blocks::{Account, LeftOut, Ruler, Verdict, Whose, seen};
 use crate::interval::vector::Vector;
 use crate::interval::{Interval, ZERO};
 use crate::places::Each as _;
@@ -116,8 +116,7 @@ pub fn nearly(problem: &Problem, is_own: impl Fn([usize; 2]) -> bool) -> Option<
             };
             let [a, b] = distance.points.each(|p| places[p]);
             let length = (0..3).fold(ZERO, |sum, k| sum + (a[k] - b[k]).sqr()).sqrt();
-            // The owner of a distance's equation: behind objects, constraints and those of none, of which there are none here.
-            let epsilon = Ruler::new(problem, 1 + e, (unit, 1), None).epsilon;
+            let epsilon = Ruler::new(problem, Whose::Distance(e), (unit, 1), None).epsilon;
             let miss = length - distance.target.enclose();
             let verdict = Verdict::of(miss, epsilon);
             let share = miss.mag() / epsilon;

@@ -179,7 +179,11 @@ fn kept(
 ) -> Result<Result<(Search, Found), Unfit>, String> {
     let search = match &store.head {
         // The plan that the parts were made by.
-        Some(head) => match head.plan.clone().filter(|plan| plan.serves(targets, pairs)) {
+        Some(head) => match head
+            .plan
+            .clone()
+            .filter(|plan| plan.serves(problem, targets.unit))
+        {
             Some(plan) => Search::new(targets, pairs, plan),
             None => {
                 return Err(store.at("its plan is not one of this problem; name another folder"));

@@ -1,6 +1,6 @@
 //! A part of the search space: a box of symbols, and which of two places some points take.
 
-use super::plan::{Drive, Plan};
+use super::plan::Plan;
 
 /// Most symbols at a time: driving parameters and folds.
 pub const MAX_SYMBOLS: usize = 6;
@@ -46,7 +46,7 @@ impl Node {
     /// base to the other side: it suffices to look at one half of its angle, or at one sign.
     pub fn roots(plan: &Plan) -> Vec<Node> {
         let angles: Vec<usize> = (0..plan.drives.len())
-            .filter(|&i| plan.drives[i] == Drive::Angle)
+            .filter(|&i| plan.drives[i].is_none())
             .collect();
         let first_is_angle = plan.steps.first().is_some_and(|s| !s.is_signed());
         let free = if first_is_angle {
@@ -58,10 +58,7 @@ impl Node {
         let root = |choice: usize| {
             let (mut lo, mut hi) = ([0.0; MAX_SYMBOLS], [0.0; MAX_SYMBOLS]);
             for (i, drive) in plan.drives.iter().enumerate() {
-                [lo[i], hi[i]] = match drive {
-                    Drive::Angle => [-1.0, 1.0],
-                    Drive::Square(bounds) => *bounds,
-                };
+                [lo[i], hi[i]] = drive.unwrap_or([-1.0, 1.0]);
             }
             let bit = |(k, &i): (usize, &usize)| (((choice >> k) & 1) << i) as u8;
             let mut node = Node {

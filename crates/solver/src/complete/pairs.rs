@@ -61,11 +61,12 @@ impl Pairs {
 
     /// Bounds for the points joined to both ends of a bar.
     fn turn(&mut self, targets: &Targets, c1: usize, c2: usize) {
-        let square = |a: usize, b: usize| Some(targets.squares[targets.edge(a, b)?]);
-        let Some(bar) = square(c1, c2) else { return };
+        let Some(bar) = targets.square(c1, c2) else {
+            return;
+        };
         // Where on the line of the bar, and how far from it.
         let placed = |p: usize| {
-            let (r1, r2) = (square(c1, p)?, square(c2, p)?);
+            let (r1, r2) = (targets.square(c1, p)?, targets.square(c2, p)?);
             let along = (r1 - r2 + bar) / (point(2.0) * bar.sqrt());
             Some((p, along, not_negative(r1 - along.sqr()).sqrt()))
         };

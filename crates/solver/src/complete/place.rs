@@ -2,8 +2,9 @@
 
 use super::model::{Factor, Model, Number, combined, rotation, weighted};
 use super::node::{Node, Sign};
-use super::plan::{Drive, HingeNumbers, Kind, MeetNumbers, Meeting, Plan, Radius};
+use super::plan::{HingeNumbers, MeetNumbers, Meeting, Plan};
 use super::targets::Targets;
+use crate::certificate::cover::{Kind, Radius};
 use crate::interval::rounding::UNDERFLOW;
 use crate::places::Each as _;
 
@@ -31,14 +32,14 @@ pub struct Squares {
 }
 
 impl Squares {
-    /// Of a new point's centres.
-    pub fn new(targets: &Targets, centres: &[usize], radii: &[Radius]) -> Self {
+    /// Of a new point and its centres.
+    pub fn new(targets: &Targets, new: usize, centres: &[(usize, Radius)]) -> Self {
         let between = |i: usize, j: usize| {
-            let edge = targets.edge(*centres.get(i)?, *centres.get(j)?)?;
-            Some(Number::new(targets.squares[edge]))
+            let square = targets.square(centres.get(i)?.0, centres.get(j)?.0);
+            square.map(Number::new)
         };
-        let radius = |k: usize| match radii.get(k) {
-            Some(Radius::Edge(edge)) => Some(Number::new(targets.squares[*edge])),
+        let radius = |k: usize| match centres.get(k) {
+            Some(&(centre, Radius::Given)) => targets.square(new, centre).map(Number::new),
             _ => None,
         };
         Squares {
@@ -248,13 +249,13 @@ pub fn place<const D: usize, const S: usize, const M: usize>(
     points: &[Place<D, S, M>],
 ) -> Placed<D, S, M> {
     match (&plan.steps[step].kind, known) {
-        (&Kind::Arm { centre, parameter }, &Known::Length(length)) => {
+        (&Kind::Arm(centre, parameter), &Known::Length(length)) => {
             let direction = angle(node, parameter);
             Placed::Here(each(|k| {
                 weighted(&points[centre][k], [(length, &direction[k])])
             }))
         }
-        (&Kind::Hinge { frame, parameter }, &Known::Hinge(numbers)) => {
+        (&Kind::Hinge(frame, parameter), &Known::Hinge(numbers)) => {
             let [c1, c2, q] = frame.each(|p| &points[p]);
             let a = minus(c2, c1);
             let (minus_one, minus_foot) = (Number::exact(-1.0), numbers.foot.negative());
@@ -270,17 +271,17 @@ pub fn place<const D: usize, const S: usize, const M: usize>(
                 combined(&foot, terms)
             }))
         }
-        (Kind::Meet { centres, radii }, Known::Meeting(meeting, index, squares)) => {
-            let c1 = &points[centres[0]];
-            let a = minus(&points[centres[1]], c1);
+        (Kind::Meet(centres), Known::Meeting(meeting, index, squares)) => {
+            let c1 = &points[centres[0].0];
+            let a = minus(&points[centres[1].0], c1);
             let b = match centres.get(2) {
-                Some(&c3) => minus(&points[c3], c1),
+                Some(&(c3, _)) => minus(&points[c3], c1),
                 None => a,
             };
             match meeting {
                 Meeting::Empty => Placed::None,
                 Meeting::Rigid(numbers) => rigid(node, *index, numbers, c1, (&a, &b)),
-                Meeting::Moving => moving(plan, node, *index, (radii, squares), c1, (&a, &b)),
+                Meeting::Moving => moving(plan, node, *index, (centres, squares), c1, (&a, &b)),
             }
         }
         _ => unreachable!("what is known of a step is of the step's own kind"),
@@ -311,7 +312,7 @@ fn moving<const D: usize, const S: usize, const M: usize>(
     plan: &Plan,
     node: &Node,
     index: usize,
-    (radii, squares): (&[Radius], &Squares),
+    (centres, squares): (&[(usize, Radius)], &Squares),
     c1: &Place<D, S, M>,
     (a, b): (&Place<D, S, M>, &Place<D, S, M>),
 ) -> Placed<D, S, M> {
@@ -319,14 +320,14 @@ fn moving<const D: usize, const S: usize, const M: usize>(
     let between = |which: usize, x: &Place<D, S, M>, y: &Place<D, S, M>| {
         squares.between[which].map_or_else(|| Moving(dot(x, y)), Fixed)
     };
-    let radius = |k: usize| match (squares.radii[k], radii[k]) {
+    let radius = |k: usize| match (squares.radii[k], centres[k].1) {
         (Some(known), _) => Fixed(known),
         (None, Radius::Parameter(parameter)) => {
-            assert!(matches!(plan.drives[parameter], Drive::Square(_)));
+            assert!(plan.drives[parameter].is_some());
             let (middle, reach) = node.middle(parameter);
             Moving(Model::symbol(parameter, middle, reach))
         }
-        (None, Radius::Edge(_)) => unreachable!("the problem's distances are known"),
+        (None, Radius::Given) => unreachable!("the problem's distances are known"),
     };
     // With A = |a|², B = |b|², C = a·b, q₁ = a·(p − c₁), q₂ = b·(p − c₁): the new point is
     // c₁ + ((q₁B − q₂C) a + (q₂A − q₁C) b ± √N n)/Δ, Δ = AB − C² = |n|², with

@@ -5,59 +5,13 @@
 //! points in space. Every other point is placed by one step from points placed before. A distance
 //! that no step uses *closes*: it is an equation of the search, as soon as both its ends stand.
 
+use super::krawczyk::Figure;
 use super::model::Number;
-use super::node::MAX_SYMBOLS;
-use super::pairs::Pairs;
 use super::targets::{Targets, not_negative};
+use crate::certificate::cover::{Cover, Kind, Radius, closing};
 use crate::interval::{Interval, point};
+use crate::problem::Problem;
 use serde::{Deserialize, Serialize};
-
-/// How a point is placed.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub enum Kind {
-    /// In the plane, at a given distance from one point, in the direction of a driving angle.
-    Arm {
-        /// The point that it is joined to.
-        centre: usize,
-        /// The driving parameter.
-        parameter: usize,
-    },
-    /// In space, on the circle of points at given distances from two joined points: a driving angle,
-    /// between the half planes from the line through both towards the point placed and towards a
-    /// third point joined to both.
-    Hinge {
-        /// The two points of the hinge, and the third.
-        frame: [usize; 3],
-        /// The driving parameter.
-        parameter: usize,
-    },
-    /// At given distances from as many points as there are dimensions; two places, on either side of
-    /// the line or plane through those points.
-    Meet {
-        /// The points that it is joined to.
-        centres: Vec<usize>,
-        /// The distances to them.
-        radii: Vec<Radius>,
-    },
-}
-
-/// The distance between a new point and one that it is placed from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Radius {
-    /// A distance of the problem.
-    Edge(usize),
-    /// The square root of a driving parameter.
-    Parameter(usize),
-}
-
-/// What a driving parameter is.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub enum Drive {
-    /// An angle, in two halves: e^(iθ) = ± i (1 + iτ)/(1 − iτ), −1 ≤ τ ≤ 1.
-    Angle,
-    /// A squared distance between these bounds.
-    Square([f64; 2]),
-}
 
 /// One point placed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -78,32 +32,32 @@ pub struct Plan {
     pub base: Vec<usize>,
     /// The points that are not in the base, in the order in which they are placed.
     pub steps: Vec<Step>,
-    /// The driving parameters.
-    pub drives: Vec<Drive>,
+    /// The driving parameters: an angle θ, in two halves, e^(iθ) = ± i (1 + iτ)/(1 − iτ) with −1 ≤ τ ≤ 1, or a squared distance between
+    /// these bounds.
+    pub drives: Vec<Option<[f64; 2]>>,
 }
 
 impl Kind {
     /// The points that have to stand before.
     pub fn from(&self) -> Vec<usize> {
         match self {
-            Kind::Arm { centre, .. } => vec![*centre],
-            Kind::Hinge { frame, .. } => frame.to_vec(),
-            Kind::Meet { centres, .. } => centres.clone(),
+            Kind::Arm(centre, _) => vec![*centre],
+            Kind::Hinge(frame, _) => frame.to_vec(),
+            Kind::Meet(centres) => centres.iter().map(|centre| centre.0).collect(),
         }
     }
 
     /// The driving parameters that the place depends on by itself.
     pub fn parameters(&self) -> impl Iterator<Item = usize> {
-        let (own, radii) = match self {
-            Kind::Arm { parameter, .. } | Kind::Hinge { parameter, .. } => (Some(*parameter), None),
-            Kind::Meet { radii, .. } => (None, Some(radii)),
+        let (own, centres) = match self {
+            Kind::Arm(_, parameter) | Kind::Hinge(_, parameter) => (Some(*parameter), &[][..]),
+            Kind::Meet(centres) => (None, &centres[..]),
         };
-        let driven = |radius: &Radius| match radius {
-            Radius::Edge(_) => None,
-            Radius::Parameter(parameter) => Some(*parameter),
+        let driven = |centre: &(usize, Radius)| match centre.1 {
+            Radius::Given => None,
+            Radius::Parameter(parameter) => Some(parameter),
         };
-        own.into_iter()
-            .chain(radii.into_iter().flatten().filter_map(driven))
+        own.into_iter().chain(centres.iter().filter_map(driven))
     }
 }
 
@@ -113,89 +67,35 @@ impl Plan {
         self.drives.len()
     }
 
-    /// Whether it is a plan of this problem, by which a search leaves out no figure: every point is placed once,
-    /// from points that stand, by distances that are given or driven, driven ones between bounds that hold for every
-    /// figure; every other distance closes where both its ends stand.
-    pub fn serves(&self, targets: &Targets, pairs: &Pairs) -> bool {
-        self.follow(targets, pairs).is_some()
+    /// The cover of a problem by it, before anything is known of its parts, in the unit of the search.
+    pub fn cover(&self, problem: &Problem, unit: f64, figures: &[Figure]) -> Cover {
+        let steps = self.steps.iter();
+        Cover {
+            problem: problem.to_toml(),
+            base: self.base.clone(),
+            steps: steps.map(|step| (step.point, step.kind.clone())).collect(),
+            drives: self.drives.clone(),
+            figures: figures.iter().map(|figure| figure.centre.clone()).collect(),
+            unit_exponent: unit.log2() as i16,
+            marks: Vec::new(),
+        }
     }
 
-    fn follow(&self, targets: &Targets, pairs: &Pairs) -> Option<()> {
-        let d = targets.dimension;
-        let sized = self.base.len() == d && self.steps.len() + d == targets.points;
-        if !sized || self.drives.len() > MAX_SYMBOLS {
-            return None;
-        }
-        let mut stands = vec![false; targets.points];
-        for (k, &p) in self.base.iter().enumerate() {
-            let joined = |&q: &usize| targets.edge(p, q).is_some();
-            if *stands.get(p)? || !self.base[..k].iter().all(joined) {
-                return None;
-            }
-            stands[p] = true;
-        }
-        let mut drives = self.drives.iter().enumerate();
-        for step in &self.steps {
-            let new = step.point;
-            let from = step.kind.from();
-            let stood = |p: &usize| stands.get(*p).copied().unwrap_or(false);
-            let different = (0..from.len()).all(|k| !from[..k].contains(&from[k]));
-            if stands.get(new) != Some(&false) || !from.iter().all(stood) || !different {
-                return None;
-            }
-            let mut used = Vec::new();
-            match &step.kind {
-                Kind::Arm { centre, parameter } => {
-                    let right = d == 2 && drives.next()? == (*parameter, &Drive::Angle);
-                    right.then_some(())?;
-                    used.push(*centre);
-                }
-                Kind::Hinge { frame, parameter } => {
-                    let [c1, c2, q] = *frame;
-                    let joined = |a, b| targets.edge(a, b).is_some();
-                    let right = d == 3 && drives.next()? == (*parameter, &Drive::Angle);
-                    (right && joined(c1, c2) && joined(c1, q) && joined(c2, q)).then_some(())?;
-                    used.extend([c1, c2]);
-                }
-                Kind::Meet { centres, radii } => {
-                    (centres.len() == d && radii.len() == d).then_some(())?;
-                    for (&centre, radius) in centres.iter().zip(radii) {
-                        match *radius {
-                            Radius::Edge(edge) => {
-                                (targets.edge(new, centre) == Some(edge)).then_some(())?;
-                                used.push(centre);
-                            }
-                            Radius::Parameter(parameter) => {
-                                let (next, &Drive::Square([least, most])) = drives.next()? else {
-                                    return None;
-                                };
-                                let [low, high] = pairs.squares(new, centre);
-                                (next == parameter && least <= low && high <= most).then_some(())?;
-                            }
-                        }
-                    }
-                }
-            }
-            let given = |&p: &usize| targets.edge(new, p).is_some();
-            let closes = |&p: &usize| stands[p] && !used.contains(&p);
-            let closing = (0..targets.points).filter(closes);
-            let mut closing: Vec<usize> = closing.filter_map(|p| targets.edge(new, p)).collect();
-            let mut said = step.closing.clone();
-            closing.sort_unstable();
-            said.sort_unstable();
-            (used.iter().all(given) && closing == said).then_some(())?;
-            stands[new] = true;
-        }
-        drives.next().is_none().then_some(())
+    /// Whether it is a plan of this problem, by which a search leaves out no figure, as the check of covers sees it: every point is placed
+    /// once, from points that stand, by distances that are given or driven, driven ones between bounds that hold for every figure; every
+    /// other distance closes where both its ends stand.
+    pub fn serves(&self, problem: &Problem, unit: f64) -> bool {
+        let closing = closing(problem, &self.cover(problem, unit, &[]));
+        let own = self.steps.iter().map(|step| &step.closing);
+        closing.is_some_and(|closing| closing.iter().eq(own))
     }
 }
 
 /// The coordinates of the base, none if no such base exists, or it may be degenerate.
 pub fn base_coordinates(targets: &Targets, base: &[usize]) -> Option<Vec<[Interval; 3]>> {
     let zero = point(0.0);
-    let length = |a: usize, b: usize| Some(targets.lengths[targets.edge(a, b)?]);
-    let square = |a: usize, b: usize| Some(targets.squares[targets.edge(a, b)?]);
-    let ab = length(base[0], base[1])?;
+    let square = |a: usize, b: usize| targets.square(a, b);
+    let ab = targets.lengths[targets.edge(base[0], base[1])?];
     let mut out = vec![[zero; 3], [ab, zero, zero]];
     if let Some(&c) = base.get(2) {
         let (r1, r2) = (square(base[0], c)?, square(base[1], c)?);
@@ -232,10 +132,9 @@ impl HingeNumbers {
         new: usize,
         [c1, c2, q]: [usize; 3],
     ) -> Option<Result<HingeNumbers, ()>> {
-        let square = |a: usize, b: usize| Some(targets.squares[targets.edge(a, b)?]);
-        let a = square(c1, c2)?;
+        let a = targets.square(c1, c2)?;
         let part = |p: usize| -> Option<(Interval, Interval)> {
-            let (r1, r2) = (square(c1, p)?, square(c2, p)?);
+            let (r1, r2) = (targets.square(c1, p)?, targets.square(c2, p)?);
             let part = (r1 - r2 + a) / (point(2.0) * a);
             // The squared distance from the hinge.
             Some((part, r1 - part.sqr() * a))
@@ -283,17 +182,16 @@ pub enum Meeting {
 
 impl Meeting {
     /// Of a new point and its centres.
-    pub fn new(targets: &Targets, centres: &[usize], radii: &[Radius]) -> Self {
-        Self::of(targets, centres, radii).unwrap_or(Meeting::Moving)
+    pub fn new(targets: &Targets, new: usize, centres: &[(usize, Radius)]) -> Self {
+        Self::of(targets, new, centres).unwrap_or(Meeting::Moving)
     }
 
-    fn of(targets: &Targets, centres: &[usize], radii: &[Radius]) -> Option<Self> {
-        let radius = |k: usize| match radii[k] {
-            Radius::Edge(edge) => Some(targets.squares[edge]),
-            Radius::Parameter(_) => None,
+    fn of(targets: &Targets, new: usize, centres: &[(usize, Radius)]) -> Option<Self> {
+        let radius = |k: usize| match centres[k] {
+            (centre, Radius::Given) => targets.square(new, centre),
+            (_, Radius::Parameter(_)) => None,
         };
-        let square =
-            |a: usize, b: usize| Some(targets.squares[targets.edge(centres[a], centres[b])?]);
+        let square = |a: usize, b: usize| targets.square(centres[a].0, centres[b].0);
         let (a, r1, r2) = (square(0, 1)?, radius(0)?, radius(1)?);
         let half = point(0.5);
         let q1 = (r1 - r2 + a) * half;
@@ -332,15 +230,15 @@ impl Meeting {
 impl Step {
     /// Whether the point has two places.
     pub fn is_signed(&self) -> bool {
-        matches!(self.kind, Kind::Meet { .. })
+        matches!(self.kind, Kind::Meet(_))
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::pairs::Pairs;
     use super::*;
     use crate::complete::choose;
-    use crate::problem::Problem;
 
     #[test]
     fn a_parameter_that_ranges_over_less_than_it_must_does_not_serve() {
@@ -348,26 +246,26 @@ mod tests {
         let targets = Targets::new(&problem);
         let pairs = Pairs::new(&targets);
         let plans = choose::plans(&targets, &pairs).unwrap();
-        assert!(plans.iter().all(|plan| plan.serves(&targets, &pairs)));
+        let serves = |plan: &Plan| plan.serves(&problem, targets.unit);
+        assert!(plans.iter().all(serves));
         // The distance from the third point of the hinge drives its point, in place of the angle.
         let mut plan = plans[0].clone();
         let new = plan.steps[0].point;
-        let Kind::Hinge { frame, parameter } = plan.steps[0].kind else {
+        let Kind::Hinge([a, b, c], parameter) = plan.steps[0].kind else {
             panic!("{plan:?}");
         };
-        let edge = |p: usize| Radius::Edge(targets.edge(new, p).unwrap());
-        plan.steps[0].kind = Kind::Meet {
-            centres: frame.to_vec(),
-            radii: vec![edge(frame[0]), edge(frame[1]), Radius::Parameter(parameter)],
-        };
-        let [low, high] = pairs.squares(new, frame[2]);
+        let driven = (c, Radius::Parameter(parameter));
+        plan.steps[0].kind = Kind::Meet(vec![(a, Radius::Given), (b, Radius::Given), driven]);
+        let [low, high] = pairs.squares(new, c);
         assert!(low < high);
         let mut serves = |range: [f64; 2]| {
-            plan.drives[parameter] = Drive::Square(range);
-            plan.serves(&targets, &pairs)
+            plan.drives[parameter] = Some(range);
+            plan.serves(&problem, targets.unit)
         };
-        assert!(serves([low, high]) && serves([0.0, 100.0]));
-        assert!(!serves([low.next_up(), high]) && !serves([low, high.next_down()]));
+        // Of the check's bounds and these all but the last digits are the same.
+        let (less, more) = (1.0 - 1e-12, 1.0 + 1e-12);
+        assert!(serves([less * low, more * high]) && serves([0.0, 100.0]));
+        assert!(!serves([more * low, high]) && !serves([low, less * high]));
         assert!(!serves([f64::NAN, high]) && !serves([high, low]));
     }
 }

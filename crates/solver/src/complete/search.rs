@@ -6,9 +6,10 @@ use super::model::Number;
 use super::node::{MAX_SIGNED, MAX_SYMBOLS, Node};
 use super::pairs::Pairs;
 use super::place::{Known, Squares};
-use super::plan::{HingeNumbers, Kind, Meeting, Plan, base_coordinates};
+use super::plan::{HingeNumbers, Meeting, Plan, base_coordinates};
 use super::targets::Targets;
 use super::visit::{Found, Rooms, Why, visit};
+use crate::certificate::cover::Kind;
 use crate::linalg::damped;
 use crate::places::Each as _;
 use crate::track::Signs;
@@ -100,22 +101,23 @@ impl Search {
         for step in &plan.steps {
             signed.push(usize::MAX);
             known.push(match &step.kind {
-                Kind::Arm { centre, .. } => {
+                Kind::Arm(centre, _) => {
                     let edge = targets
                         .edge(step.point, *centre)
                         .expect("an arm is a distance");
                     Known::Length(Number::new(targets.lengths[edge]))
                 }
-                Kind::Hinge { frame, .. } => match HingeNumbers::new(targets, step.point, *frame) {
+                Kind::Hinge(frame, _) => match HingeNumbers::new(targets, step.point, *frame) {
                     Some(Ok(numbers)) => Known::Hinge(numbers),
                     Some(Err(())) => return Err(Unfit::Empty(step.point)),
                     None => return Err(Unfit::Hinge),
                 },
-                Kind::Meet { centres, radii } => {
+                Kind::Meet(centres) => {
                     *signed.last_mut().expect("just pushed") = count;
                     count += 1;
-                    let squares = Squares::new(targets, centres, radii);
-                    Known::Meeting(Meeting::new(targets, centres, radii), count - 1, squares)
+                    let squares = Squares::new(targets, step.point, centres);
+                    let meeting = Meeting::new(targets, step.point, centres);
+                    Known::Meeting(meeting, count - 1, squares)
                 }
             });
         }

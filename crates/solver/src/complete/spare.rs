@@ -2,6 +2,7 @@
 //!
 //! Seen in floats; what is claimed of the equations used does not rest on it, and what was left out is tested for itself.
 
+use crate::blocks::Whose;
 use crate::constraint::{Entry, Equation, Form, Lowered, Product, Spare};
 use crate::equations::{left_side, slopes};
 use crate::interval::Interval;
@@ -91,15 +92,10 @@ pub(super) fn make_square(
     sketch: &[[Interval; 3]],
     unit: f64,
 ) -> Result<Vec<Spare>, String> {
-    let (objects, constraints) = (problem.objects.len(), problem.constraints.len());
-    let rank = |owner: usize| match owner.checked_sub(objects) {
-        Some(c) if c < constraints => match &problem.constraints[c] {
-            constraint if constraint.kind == "fixed" => 1,
-            constraint if constraint.value.is_some() => 2,
-            _ => 3,
-        },
-        Some(c) if c > constraints => 2,
-        _ => 0,
+    let rank = |owner: usize| match Whose::of(problem, owner) {
+        Whose::Object(_) | Whose::Pin => 0,
+        // What is fixed comes before dimensions.
+        owner => owner.keep(problem).max(1),
     };
     let equations = Equations {
         lowered,

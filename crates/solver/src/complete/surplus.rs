@@ -6,13 +6,14 @@
 //! of the problem), or neither.
 
 use super::{Complete, Options, Unserved, all};
-use crate::blocks::{Account, LeftOut, MOST_POINTS, Ruler, Verdict};
+use crate::blocks::{Account, LeftOut, MOST_POINTS, Ruler, Verdict, Whose};
 use crate::interval::{Interval, point};
 use crate::linalg::Span;
 use crate::places::Each as _;
 use crate::problem::{Distance, Problem, Target, free_coordinates, rigidity, rigidity_row};
 use crate::system::typical_length;
 use crate::track::{Mode, Outcome};
+use serde::Serialize;
 
 /// A distance that was left out of a search.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,31 +38,36 @@ pub struct Surplus {
 }
 
 /// What came of the figures that have the distances used.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct Tested {
     /// How many distances (or equations) were used, and how many there are.
     pub used: usize,
     /// Of so many.
+    #[serde(rename = "of")]
     pub all: usize,
     /// What is counted: constraints, or equations, of which a constraint may have several.
+    #[serde(skip)]
     pub what: &'static str,
     /// How many figures have those used; `None`: more than have a place in 64 bits.
     pub found: Option<u64>,
     /// How many of the figures that were tested meet all others.
     pub met: usize,
-    /// All of those within this.
-    pub within: f64,
     /// How many were proved to miss one. They are no solutions.
     pub missed: usize,
-    /// Each of these misses one by at least this.
+    /// Each of these misses one by at least this; infinity where there are none.
+    #[serde(rename = "missed_by")]
     pub by: f64,
+    /// All of those that meet them do so within this; minus infinity where there are none.
+    pub within: f64,
     /// Of how many it is not decided.
     pub undecided: usize,
     /// For each solution how it stands to what was left out.
+    #[serde(skip)]
     pub figures: Vec<Vec<LeftOut>>,
     /// What was left out, by name.
     pub left_out: Vec<String>,
     /// What was held beside.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub added: Vec<String>,
 }
 
@@ -80,6 +86,7 @@ impl Tested {
             what: "constraints",
             found,
             by: f64::INFINITY,
+            within: f64::NEG_INFINITY,
             left_out,
             ..Tested::default()
         }
@@ -99,7 +106,10 @@ impl Tested {
                 self.within = self.within.max(within);
             }
             Verdict::Undecided { .. } | Verdict::NotLookedAt => self.undecided += 1,
-            Verdict::Follows => self.met += 1,
+            Verdict::Follows => {
+                self.met += 1;
+                self.within = self.within.max(0.0);
+            }
         }
         self.figures.push(figure);
         true
@@ -137,8 +147,7 @@ impl Surplus {
         let spare = (0..edges.len()).filter(|&e| !is_used[e]).map(|e| Spare {
             name: problem.distance_name(e),
             distance: problem.distances[e].clone(),
-            // The owner of a distance's equation: behind objects, constraints and those of none, of which there are none here.
-            epsilon: Ruler::new(problem, 1 + e, (unit, 1), tolerance).epsilon,
+            epsilon: Ruler::new(problem, Whose::Distance(e), (unit, 1), tolerance).epsilon,
         });
         let mut used = is_used.iter();
         Some(Surplus {

@@ -67,6 +67,11 @@ impl Targets {
         let index = self.table[a * self.points + b];
         (index != NONE).then_some(index as usize)
     }
+
+    /// The square of the distance between two points, if one is wanted.
+    pub fn square(&self, a: usize, b: usize) -> Option<Interval> {
+        Some(self.squares[self.edge(a, b)?])
+    }
 }
 
 /// A lower bound of an interval that is known not to be negative, with the bound no lower than 0.

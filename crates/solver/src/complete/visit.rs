@@ -53,14 +53,11 @@ pub struct Found {
     pub undecided: Vec<Undecided>,
     /// How many they are.
     pub undecided_count: u64,
-    /// Their share.
-    pub undecided_share: f64,
     /// How many of them the search did not come to.
     pub unfinished: u64,
     /// Parts looked at.
     pub boxes: u64,
     /// Parts given up as a sign is wrong all over them.
-    #[serde(default)]
     pub cut: u64,
     /// The cover, if it is wanted.
     pub marks: Marks,
@@ -91,7 +88,6 @@ impl Found {
     pub fn leave(&mut self, share: f64, why: Why) {
         self.marks.put(Mark::Undecided, 0);
         self.undecided_count += 1;
-        self.undecided_share += share;
         self.unfinished += u64::from(why == Why::Unfinished);
         self.keep(Undecided { why, share });
     }
@@ -121,7 +117,6 @@ impl Found {
             self.keep(part);
         }
         self.undecided_count += other.undecided_count;
-        self.undecided_share += other.undecided_share;
         self.unfinished += other.unfinished;
         self.boxes += other.boxes;
         self.cut += other.cut;
@@ -507,7 +502,8 @@ mod tests {
                 (found.undecided_count, found.unfinished, found.boxes),
                 (1, 1, 7)
             );
-            assert_eq!((found.undecided.len(), found.undecided_share), (1, 0.5));
+            let share = found.undecided[0].share;
+            assert_eq!((found.undecided.len(), share), (1, 0.5));
             assert_eq!(found.marks.bytes(), Some(2));
         }
     }

@@ -1,7 +1,7 @@
 //! Which distances a motion is followed by, where there are more than say something new, and how it stands to the others.
 
 use super::bounds::{Bounds, measure};
-use crate::blocks::{Account, Floats, Ruler, System, Verdict, straight};
+use crate::blocks::{Account, Floats, Ruler, System, Verdict, Whose, straight};
 use crate::edit::Round;
 use crate::interval::{Interval, hull};
 use crate::linalg::Span;
@@ -97,8 +97,7 @@ pub(super) fn account(
     for &index in left_out {
         let distance = &problem.distances[index];
         let target = distance.target.enclose();
-        let owner = problem.objects.len() + problem.constraints.len() + 1 + index;
-        let epsilon = Ruler::new(problem, owner, (unit, 2), None).epsilon;
+        let epsilon = Ruler::new(problem, Whose::Distance(index), (unit, 2), None).epsilon;
         let quantity = Quantity::length(problem, distance.points);
         let verdict = match measure(round, quantity, control).bounds {
             Bounds::Between { least, most } => {

@@ -6,6 +6,7 @@
 //! singular wherever they hold: the run ends where they are met. These are floats: what is said is an observation.
 
 use super::Remark;
+use crate::blocks::Whose;
 use crate::constraint::try_lower;
 use crate::linalg::{Linear, linearised, nearest_zero, scaled};
 use crate::problem::Problem;
@@ -57,15 +58,14 @@ pub fn redundant(problem: &Problem) -> Vec<Remark> {
         });
     }
     let head = problem.distances.len();
-    let objects = problem.objects.len();
     let mut names: Vec<String> = Vec::new();
     for row in found.unwrap_or_default() {
         let name = match row.checked_sub(head) {
             None => format!("the distance {}", problem.distance_name(row)),
-            Some(e) => match lowered.owners[e].checked_sub(objects) {
-                None => problem.objects[lowered.owners[e]].name.clone(),
-                Some(c) if c < problem.constraints.len() => problem.constraint_name(c),
-                Some(_) => continue,
+            Some(e) => match Whose::of(problem, lowered.owners[e]) {
+                Whose::Object(o) => problem.objects[o].name.clone(),
+                Whose::Constraint(c) => problem.constraint_name(c),
+                _ => continue,
             },
         };
         if !names.contains(&name) {

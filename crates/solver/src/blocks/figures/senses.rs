@@ -6,7 +6,8 @@
 //! Senses that equations keep whatever the figure is, like the side of a line on which a point at a given distance from it
 //! is, are not among them.
 
-use crate::blocks::cut::{Cut, name};
+use crate::blocks::Whose;
+use crate::blocks::cut::Cut;
 use crate::blocks::number::Number;
 use crate::constraint::{Arguments, Flat, LineName, Sort, Thing};
 use crate::interval::{Interval, point};
@@ -208,7 +209,7 @@ pub(super) fn senses(cut: &Cut) -> Option<Vec<Sense>> {
         let items = Arguments::new(problem, &constraint.items);
         let quantities = of_constraint(cut, &constraint.kind, items);
         let quantities = quantities.unwrap_or_else(|| vec![Quantity::Untold]);
-        let called = || name(problem, problem.objects.len() + c);
+        let called = || Whose::Constraint(c).name(problem);
         found.extend(quantities.into_iter().map(|quantity| (called(), quantity)));
     }
     // Points in one place are one: the first of them stands for all.

@@ -144,6 +144,7 @@ mod tests {
     use crate::equations::Form;
     use crate::interval::rounding::gamma;
     use crate::problem::Problem;
+    use crate::random::Random;
     use crate::rational::Rational;
     use crate::system::Homotopy;
 
@@ -158,24 +159,18 @@ mod tests {
     /// F along random polynomials, tails and all, against rational numbers; and a wrong factor is found.
     #[test]
     fn values_are_those_of_rational_numbers() {
-        let mut seed = 1u64;
-        let mut random = move || {
-            seed = seed
-                .wrapping_mul(6364136223846793005)
-                .wrapping_add(1442695040888963407);
-            (seed >> 11) as f64 * 2f64.powi(-52) - 1.0
-        };
+        let mut random = Random::new(1);
         for name in ["pentahedron", "3p3l", "3p3l-orthogonal"] {
             let problem = Problem::read(format!("../../problems/constraints/{name}.toml")).unwrap();
             let eq = Equations::new(Homotopy::new(&problem).unwrap());
             let (m, n) = (eq.m, eq.m + 1);
             assert!(!eq.homotopy.tail.is_empty());
             for _ in 0..5 {
-                let high: Vec<f64> = (0..n).map(|_| 2.0 * random()).collect();
-                let low: Vec<f64> = (0..n).map(|_| 1e-17 * random()).collect();
+                let high: Vec<f64> = (0..n).map(|_| 2.0 * random.symmetric()).collect();
+                let low: Vec<f64> = (0..n).map(|_| 1e-17 * random.symmetric()).collect();
                 let mut curve = Curve::at_sum(&eq, &high, &low).unwrap();
                 for _ in 1..=ORDER {
-                    let mut z: Vec<f64> = (0..n).map(|_| 0.1 * random()).collect();
+                    let mut z: Vec<f64> = (0..n).map(|_| 0.1 * random.symmetric()).collect();
                     // E is then a constant.
                     z[m] = 0.0;
                     curve.push(z).unwrap();

@@ -12,6 +12,7 @@ pub mod coordinates;
 mod lines;
 mod plan;
 
+pub(crate) use plan::closing;
 pub use plan::{Cover, Kind, Left, MAX_SYMBOLS, Mark, Radius};
 
 use super::Compared;

@@ -47,7 +47,6 @@ pub struct Found {
     /// Parts looked at.
     pub boxes: u64,
     /// Parts given up as a sign is wrong all over them.
-    #[serde(default)]
     pub cut: u64,
     /// Whether it was ended before all was looked at.
     pub is_broken_off: bool,

@@ -1,6 +1,6 @@
 //! Equations that were left out, as there are more than unknowns: how far each figure found is from meeting them.
 
-use crate::blocks::{Account, LeftOut, Ruler, Verdict, owner_name};
+use crate::blocks::{Account, LeftOut, Ruler, Verdict, Whose};
 use crate::constraint::Spare;
 use crate::interval::{Interval, ZERO, point};
 use crate::problem::Problem;
@@ -31,7 +31,7 @@ impl Test<'_> {
     }
 
     fn name(&self, spare: &Spare) -> String {
-        owner_name(self.problem, spare.owner)
+        Whose::of(self.problem, spare.owner).name(self.problem)
     }
 
     /// How a figure stands to each constraint of which equations were left out: the worst of these.
@@ -45,6 +45,7 @@ impl Test<'_> {
 
     fn verdict(&self, spare: &Spare, figure: &FigureBox) -> Verdict {
         let Spare { equation, owner } = spare;
+        let owner = Whose::of(self.problem, *owner);
         let unknown = |e| self.homotopy.entry(e);
         let at = |e| unknown(e).map_or(ZERO, |i| figure.figure.enclosure(i));
         let products = equation.products.iter();
@@ -61,17 +62,16 @@ impl Test<'_> {
         let unit = point(self.homotopy.unit.powi(equation.power));
         let right = equation.right.iter().fold(ZERO, |sum, e| sum + e.enclose());
         let off = left * unit - right;
-        let distances = self.problem.objects.len() + self.problem.constraints.len();
         // A distance's equation has half its square on both sides.
         let twice = |x: Interval| {
-            if *owner > distances {
+            if matches!(owner, Whose::Distance(_)) {
                 x * point(2.0)
             } else {
                 x
             }
         };
         let about = (self.homotopy.unit, equation.power);
-        let ruler = Ruler::new(self.problem, *owner, about, self.tolerance);
+        let ruler = Ruler::new(self.problem, owner, about, self.tolerance);
         ruler.verdict(twice(off), twice(right))
     }
 }

@@ -10,7 +10,7 @@
 
 use super::left_out::at_rest_all;
 use super::{Followers, MOST_TUBES, Parts};
-use crate::blocks::{Blocks, Choice, FINE, LAST, is_exact, keep, rounded_up, square};
+use crate::blocks::{Blocks, Choice, FINE, LAST, Whose, is_exact, rounded_up, square};
 use crate::constraint::try_lower_all;
 use crate::edit::ending::{Edited, Ending, Keep};
 use crate::edit::setting::Setting;
@@ -115,20 +115,14 @@ impl Parts {
         let lowered = try_lower_all(&self.cut.problem, Some(&self.cut.record)).ok()?;
         let rights = lowered.tail.equations.into_iter().map(|e| e.right);
         let rights = at_rest_all(&rights.collect::<Vec<_>>());
-        let head = self.cut.problem.objects.len() + self.cut.problem.constraints.len() + 1;
-        let is_driven = |owner: usize| {
-            settings.iter().any(|setting| {
-                owner
-                    == match setting.index.checked_sub(self.cut.problem.distances.len()) {
-                        None => head + setting.index,
-                        Some(c) => self.cut.problem.objects.len() + c,
-                    }
-            })
+        let is_driven = |owner: Whose| {
+            let index = owner.index(&self.cut.problem);
+            settings.iter().any(|setting| Some(setting.index) == index)
         };
         let first = |row: usize| match self.cut.owner(row) {
             // Where a path turns back the others are independent by themselves.
             owner if is_driven(owner) => LAST,
-            owner => keep(&self.cut.problem, owner),
+            owner => owner.keep(&self.cut.problem),
         };
         let later = self.cut.system.later();
         let at = &self.figure.centre;

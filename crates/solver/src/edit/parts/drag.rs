@@ -6,7 +6,7 @@
 
 use super::left_out::at_rest_all;
 use super::{Parts, put};
-use crate::blocks::{Choice, FINE, FREE_FIRST, Floats, keep};
+use crate::blocks::{Choice, FINE, FREE_FIRST, Floats};
 use crate::constraint::{Equation, try_lower_all};
 use crate::edit::drag::{Drag, Dragged};
 use crate::edit::ending::Edited;
@@ -278,7 +278,7 @@ impl Parts {
             true => FREE_FIRST,
             false => later(u),
         };
-        let first = |row: usize| keep(&self.cut.problem, self.cut.owner(row));
+        let first = |row: usize| self.cut.owner(row).keep(&self.cut.problem);
         let choice = Choice::new(&self.cut.system, &at, rank, first, FINE);
         self.take(choice, &rights)
             .ok_or_else(|| undecided("its equations do not match its unknowns"))?;

@@ -42,17 +42,12 @@ impl Parts {
     /// coordinates, and what follows from others at the figure is left out. It bends by default.
     pub fn completed(&self) -> Result<Problem, String> {
         let mut problem = self.cut.problem.clone();
-        let (objects, all) = (problem.objects.len(), problem.constraints.len());
         let head = problem.distances.len();
         let out: BTreeSet<usize> = self
             .cut
             .redundant
             .iter()
-            .filter_map(|&row| match self.cut.owner(row) {
-                owner if owner < objects => None,
-                owner if owner < objects + all => Some(head + owner - objects),
-                owner => Some(owner - objects - all - 1),
-            })
+            .filter_map(|&row| self.cut.owner(row).index(&problem))
             .collect();
         let labels = std::mem::take(&mut problem.labels);
         let label = |index: usize| labels.get(&index).cloned();

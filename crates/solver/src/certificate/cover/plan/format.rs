@@ -6,13 +6,14 @@ use super::super::CoverError;
 use super::super::lines::{Lines, error, float, number};
 use crate::certificate::begun::before_one_record;
 use crate::certificate::format::TAG_COVER;
+use serde::{Deserialize, Serialize};
 use std::fmt::Write;
 
 /// Most symbols at a time.
 pub const MAX_SYMBOLS: usize = 6;
 
 /// How far a new point is from one that stands.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum Radius {
     /// The problem gives the distance.
     Given,
@@ -21,13 +22,14 @@ pub enum Radius {
 }
 
 /// How a point is placed (docs/how/sets.md, "Placing points").
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Kind {
-    /// In the plane, at the given distance from a point, in a driving direction.
+    /// In the plane, at the given distance from a point, in a driving direction: that point, and the driving parameter.
     Arm(usize, usize),
-    /// In space, on the hinge through two points, turned by a driving angle from a third.
+    /// In space, on the circle of points at given distances from two joined points, the hinge: these two and a third point joined to both, and
+    /// the driving parameter, an angle between the half planes from the hinge towards the point placed and towards the third.
     Hinge([usize; 3], usize),
-    /// At distances from as many points as dimensions.
+    /// At distances from as many points as dimensions; two places, on either side of the line or plane through those points.
     Meet(Vec<(usize, Radius)>),
 }
 
@@ -335,6 +337,7 @@ impl Mark {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::random::Random;
 
     #[test]
     fn marks_are_read_as_they_were_written() {
@@ -382,13 +385,8 @@ mod tests {
 
     #[test]
     fn what_is_left_holds_what_was_wanted_and_little_more() {
-        let mut state = 7u64;
-        let mut random = || {
-            state = state
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1);
-            (state >> 11) as f64 / (1u64 << 53) as f64
-        };
+        let mut random = Random::new(7);
+        let mut random = || 0.5 + 0.5 * random.symmetric();
         for _ in 0..10_000 {
             let lo = 4.0 * random() - 2.0;
             let hi = lo + 2f64.powf(-50.0 * random());

@@ -18,6 +18,7 @@ pub use format::{Cover, Kind, Left, MAX_SYMBOLS, Mark, Radius};
 pub use model::Model;
 
 use super::{CoverError, CoverStage, CoverVerdict, ENDED};
+use crate::problem::Problem;
 use figure::Figure;
 use geometry::Plan;
 use parts::{Part, Parts};
@@ -26,6 +27,12 @@ use rayon::prelude::*;
 
 /// Parts that are read before they are proved.
 const BATCH: usize = 4096;
+
+/// For each step of a cover's plan the distances that close as its point stands. `None`: it is no plan of this problem by which every
+/// figure is met.
+pub fn closing(problem: &Problem, cover: &Cover) -> Option<Vec<Vec<usize>>> {
+    Some(Plan::new(problem, cover).ok()?.closing)
+}
 
 /// Checks a cover.
 pub fn verify(

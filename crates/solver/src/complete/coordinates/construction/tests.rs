@@ -7,21 +7,10 @@ use crate::complete::coordinates::system::{Row, System};
 use crate::interval::{Interval, ZERO, hull, point};
 use crate::places::Each as _;
 use crate::problem::Problem;
+use crate::random::Random;
 use crate::system::{Homotopy, typical_length};
 use proptest::prelude::*;
-use std::cell::Cell;
 use std::sync::OnceLock;
-
-/// Numbers from −1 to 1 that depend on a seed alone.
-struct Random(Cell<u64>);
-
-impl Random {
-    fn next(&self) -> f64 {
-        let next = self.0.get().wrapping_mul(6_364_136_223_846_793_005);
-        self.0.set(next.wrapping_add(1_442_695_040_888_963_407));
-        (self.0.get() >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-    }
-}
 
 /// How often parts with a zero were looked at, were left with it, had several leaves, and came out with half of their widths or less.
 #[derive(Debug, Default)]
@@ -33,11 +22,14 @@ struct Seen {
 
 /// Makes the numbers near the sketch, moved at random, a zero of all equations, and looks at parts around it.
 fn look(system: &System, sketch: &[f64], seed: u64, seen: &mut Seen) {
-    let random = Random(Cell::new(seed));
+    let mut random = Random::new(seed);
     let m = system.unknowns;
     assert_eq!(sketch.len(), m);
-    let scale = 2f64.powf(2.0 * random.next() - 3.0);
-    let zero: Vec<f64> = sketch.iter().map(|x| x + scale * random.next()).collect();
+    let scale = 2f64.powf(2.0 * random.symmetric() - 3.0);
+    let zero: Vec<f64> = sketch
+        .iter()
+        .map(|x| x + scale * random.symmetric())
+        .collect();
     let mut at: Vec<Interval> = zero.iter().map(|&x| point(x)).collect();
     at.push(ZERO);
     let mut system = system.clone();
@@ -58,17 +50,19 @@ fn look(system: &System, sketch: &[f64], seed: u64, seen: &mut Seen) {
         let rows: Vec<&Row> = block.square.rows.clone();
         let orders = Order::some(&block.square, m, 4);
         for order in &orders {
-            let width = 2f64.powf(6.0 * random.next() - 3.0);
+            let width = 2f64.powf(6.0 * random.symmetric() - 3.0);
             let mut x = at.clone();
             // What blocks before have found are ranges.
-            let known = width * 1e-3 * random.next().max(0.0);
+            let known = width * 1e-3 * random.symmetric().max(0.0);
             for e in 0..m {
-                let [below, above] = [random.next(), random.next()].each(|x| known * x.max(0.0));
+                let [below, above] =
+                    [random.symmetric(), random.symmetric()].each(|x| known * x.max(0.0));
                 x[e] = hull(zero[e] - below, zero[e] + above);
             }
             for &u in &own {
                 // Now and then the zero is at the border.
-                let [below, above] = [random.next(), random.next()].each(|x| width * x.max(0.0));
+                let [below, above] =
+                    [random.symmetric(), random.symmetric()].each(|x| width * x.max(0.0));
                 x[u] = hull(zero[u] - below, zero[u] + above);
             }
             let leaves = (0..=6).find_map(|symbols| walk(symbols, order, &rows, &x));
