@@ -55,6 +55,10 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
     let only = only
         .collect::<Result<Vec<_>, _>>()
         .map_err(|error| format!("{shown}: {error}"))?;
+    match only.is_empty() {
+        true => loaded.say_computed(&problem.dimensions().collect::<Vec<_>>()),
+        false => loaded.say_computed(&only),
+    }
     let json = beside([&arguments.source.file], arguments.json.as_deref())?;
     let pictures = arguments.pictures.places([&arguments.source.file])?;
     let mut control = interrupt::control();

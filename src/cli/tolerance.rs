@@ -77,7 +77,9 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Result<u8, String> {
     arguments.time.begin();
     let shown = arguments.source.file.display();
-    let (problem, made) = input::whole_of(&arguments.source.file, &arguments.source.load()?)?;
+    let loaded = arguments.source.load()?;
+    loaded.say_computed(&loaded.problem.dimensions().collect::<Vec<_>>());
+    let (problem, made) = input::whole_of(&arguments.source.file, &loaded)?;
     let made = made.with_other_numbers();
     output::say_if_signs_are_not_looked_at(&problem);
     let json = beside([&arguments.source.file], arguments.json.as_deref())?;
