@@ -259,6 +259,23 @@ fn cells_are_read_and_set() {
         "{:?}",
         edited.tied
     );
+    // A column of cells, each from the one above.
+    let column: Vec<[String; 2]> = (1..200)
+        .map(|k| [format!("C{k}"), format!("=C{} + 0.1 mm", k - 1)])
+        .collect();
+    let first = [("C0", "first", "=1 mm")];
+    let column = column
+        .iter()
+        .map(|[address, text]| (&**address, "", &**text));
+    let column: Vec<_> = first.into_iter().chain(column).collect();
+    let expressions = [("Constraints.high", "Sheet.C199 - 8.9 mm")];
+    let imported = read(&corner([20.0, 12.0, 40.0, 30.0], &expressions, &column));
+    let mut other = imported.clone();
+    assert_eq!(other.set_cell("Sheet.first", "4"), Some(Ok(())));
+    let found = other.followed(&other.problem, &[]).set;
+    assert!((found[0].value.to_f64() - 15.0).abs() < 1e-9, "{found:?}");
+    let faults: Vec<_> = imported.tied.iter().map(|tied| &tied.fault).collect();
+    assert_eq!(faults, [&None]);
     // What is computed, a text, or no number is not set, and what nothing follows from changes nothing.
     for (name, to, words) in [
         ("Sheet.B2", "3", "is computed, by `B1 / 2 + $B$3 * 1 mm`"),

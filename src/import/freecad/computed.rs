@@ -10,8 +10,8 @@ use std::ops::Range;
 
 /// What an expression gives, and what the file has, differ by no more than this part.
 const SAME: f64 = 1e-9;
-/// So many numbers are computed from one another.
-const MOST: usize = 100;
+/// So many numbers are computed from one another, each from one that is not known yet.
+const MOST: usize = 50;
 
 /// An object of the document.
 #[derive(Debug, Clone)]
@@ -144,6 +144,7 @@ impl Numbers {
             }
         }
         let mut in_file = Evaluation::new(&numbers, []);
+        in_file.cells();
         let all = 0..numbers.entries.len();
         numbers.faults = all.map(|entry| in_file.value(entry).err()).collect();
         numbers
@@ -308,9 +309,18 @@ impl<'a> Evaluation<'a> {
 
     /// The number of a constraint of the sketch that follows from what is new; `None`: nothing of that is in it.
     pub fn follows(&mut self, source: usize) -> Option<Found> {
+        self.cells();
         self.is_new = false;
         let value = self.value(self.numbers.entry(source));
         self.is_new.then_some(value)
+    }
+
+    /// Computes all cells in the order of the file, in which columns go down as a rule: most of what each names is known then.
+    fn cells(&mut self) {
+        let sheets = self.numbers.objects.iter().filter(|o| o.is_sheet);
+        for entry in sheets.flat_map(|sheet| sheet.entries.clone()) {
+            let _ = self.value(entry);
+        }
     }
 
     fn value(&mut self, entry: usize) -> Found {

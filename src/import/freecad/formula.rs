@@ -5,7 +5,7 @@
 use super::quantity::{Quantity, call, compare, operate};
 
 /// Parentheses and choices in one another, and signs in a row.
-const DEPTH: usize = 50;
+const DEPTH: usize = 20;
 /// What a part of a path in brackets begins with.
 const INDEX: char = '[';
 
