@@ -175,8 +175,11 @@ fn describe_sketches(file: &Path, sketch: Option<&str>) -> Result<(String, u8), 
         };
         let tied = imported.tied.iter().find(|tied| tied.index == index);
         let tied = tied.map_or(String::new(), |tied| {
+            let fault = tied.fault.as_ref().map_or(String::new(), |why| {
+                format!(", which is not followed here: {why}")
+            });
             format!(
-                " (by the expression `{}` in the file, which is not evaluated here)",
+                " (by the expression `{}` in the file{fault})",
                 tied.expression
             )
         });

@@ -10,10 +10,13 @@ use super::{BAD_INPUT, CLOSED, LIMIT, PASSES, STOPPED, input, interrupt, serve};
 use krawl::blocks::Account;
 use krawl::certificate::Writer;
 use krawl::edit::{Asked, Astray, Drag, Edited, Ending, OpenError, Session, Setting};
-use krawl::import::Format;
+use krawl::import::{Followed, Format};
 use krawl::problem::Problem;
 use krawl::remarks::moves;
-use krawl::report::{account_in_words, edit_to_document, edit_to_table, signs_of_figure};
+use krawl::report::{
+    account_in_words, edit_to_document, edit_to_table, followed_to_table, followed_to_value,
+    signs_of_figure,
+};
 use krawl::track::{Control, Options, StopKind, Witness};
 use std::fs::File;
 use std::io::BufWriter;
@@ -22,7 +25,7 @@ use std::path::{Path, PathBuf};
 /// Change dimensions of a figure and keep the figure, with proof, or say how far it can go
 ///
 /// The figure is the sketch in FILE, which should meet its dimensions, at least nearly. Only the dimensions named
-/// move, in proportion; all others stay.
+/// move, in proportion, and with them those that a FreeCAD file computes from them; all others stay.
 #[derive(clap::Args)]
 #[command(after_long_help = "\
 Examples:
@@ -45,7 +48,7 @@ pub struct Arguments {
     sketch: Option<String>,
     /// A dimension and its new value: a-b=5.2, radii:hole=3, c00f=45
     ///
-    /// Given several times, all move together
+    /// Given several times, all move together. Of a FreeCAD file a cell of a spreadsheet may be set, too: Spreadsheet.width=90
     #[arg(
         long,
         value_name = "NAME=VALUE",
@@ -126,7 +129,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
     if let Some(out) = &arguments.out {
         check_format(&arguments.file, out)?;
     }
-    let loaded = input::load(&arguments.file, arguments.sketch.as_deref())?;
+    let mut loaded = input::load(&arguments.file, arguments.sketch.as_deref())?;
     let mut problem = loaded.problem.clone();
     let in_file = |error: &dyn std::fmt::Display| in_file(&arguments.file, error);
     let options = Options {
@@ -140,11 +143,29 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
             false => BAD_INPUT,
         });
     }
-    let named = arguments.set.iter();
-    let named = named.map(|text| Setting::split(&problem, text));
-    let named = named.collect::<Result<Vec<_>, _>>();
-    let asked = named.and_then(|named| Asked::new(&problem, &named));
-    let asked = asked.map_err(|e| in_file(&e))?;
+    let mut named = Vec::new();
+    for text in &arguments.set {
+        let (name, value) = Setting::split(&problem, text).map_err(|e| in_file(&e))?;
+        match loaded.set_cell(name, value) {
+            Some(set) => set.map_err(|e| in_file(&e))?,
+            None => named.push((name, value)),
+        }
+    }
+    let asked = Asked::new(&problem, &named).map_err(|e| in_file(&e))?;
+    let followed = match arguments.set.is_empty() {
+        true => Followed::default(),
+        false => loaded.followed(&problem, &asked.given),
+    };
+    if named.is_empty() && followed.set.is_empty() && !arguments.set.is_empty() {
+        let text = format!(
+            "no dimension of the sketch follows from {}: there is nothing to change",
+            arguments.set.join(", ")
+        );
+        return Err(in_file(&[&[text], &followed.warnings[..]].concat().join("; ")).into());
+    }
+    let numbers = asked.numbers().chain(followed.numbers()).collect();
+    let asked = Asked::led(&problem, asked.parameters, numbers);
+    let asked = asked.map_err(|e| in_file(&followed.in_error(&e)))?;
     let is_freecad = Format::of(&arguments.file.display().to_string()) == Some(Format::FreeCad);
     if arguments.out.is_some()
         && !is_freecad
@@ -167,7 +188,6 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
     if drags.is_empty() {
         Setting::check(&problem, &settings).map_err(|e| in_file(&e))?;
     }
-    let warnings = loaded.warnings(&given);
     let (mut account, mut astray) = (None, None);
     let mut led = settings.clone();
     let mut cert = arguments.cert.as_deref();
@@ -225,7 +245,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
     results.note(is_written);
     results.write(|| {
         let mut value = edit_to_document(&problem, &edited, &session);
-        value["warnings"] = warnings.clone().into();
+        followed_to_value(&loaded.problem, &followed, &mut value);
         if !measures.is_empty() {
             value["measures"] = measures.to_value(figure());
         }
@@ -256,9 +276,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
         let mut text = as_turns + &drawn + &table + &account_in_words(&edited.account);
         text += &measures.to_table(of, figure());
         text += &signs_of_figure(&problem, &edited.points);
-        for warning in &warnings {
-            text += &format!("warning             {warning}\n");
-        }
+        text += &followed_to_table(&loaded.problem, &followed);
         text
     });
     Ok(results.code(verdict.unwrap_or(exit_code(&edited))))

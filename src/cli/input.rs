@@ -5,7 +5,7 @@ use krawl::blocks::Account;
 use krawl::complete::{Surplus, has_equations_to_spare};
 use krawl::constraint::fix_frame;
 use krawl::edit::{Decomposition, Setting, completed};
-use krawl::import::{self, Figure, Format, Imported, Skeleton};
+use krawl::import::{self, Figure, Followed, Format, Imported, Skeleton};
 use krawl::interval::Interval;
 use krawl::problem::{MAX_FILE_SIZE, Problem};
 use krawl::system::Located;
@@ -336,11 +336,25 @@ impl Loaded {
         }
     }
 
-    /// What is to be said where dimensions are set: see [`Imported::warnings`].
-    pub fn warnings(&self, settings: &[Setting]) -> Vec<String> {
-        let set: Vec<usize> = settings.iter().map(|setting| setting.index).collect();
+    /// What follows where dimensions are set, and all others are as in `now`: see [`Imported::followed`].
+    pub fn followed(&self, now: &Problem, settings: &[Setting]) -> Followed {
         let imported = self.imported.as_ref();
-        imported.map_or(Vec::new(), |(imported, _)| imported.warnings(&set))
+        imported.map_or_else(Followed::default, |(imported, _)| {
+            imported.followed(now, settings)
+        })
+    }
+
+    /// Sets a cell of a spreadsheet: see [`Imported::set_cell`].
+    pub fn set_cell(&mut self, name: &str, value: &str) -> Option<Result<(), String>> {
+        self.imported.as_mut()?.0.set_cell(name, value)
+    }
+
+    /// Says which of dimensions that are led, and are tied to these, the file's own program computes: see [`Imported::computed`].
+    pub fn say_computed(&self, led: &[usize]) {
+        let imported = self.imported.as_ref();
+        if let Some(text) = imported.and_then(|(imported, _)| imported.computed(led)) {
+            output::complain(&format!("{}: {text}", self.problem.name));
+        }
     }
 
     /// The file with a new figure and new dimensions, in its own format.

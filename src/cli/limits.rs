@@ -56,6 +56,10 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
     let only = only
         .collect::<Result<Vec<_>, _>>()
         .map_err(|error| format!("{shown}: {error}"))?;
+    match only.is_empty() {
+        true => loaded.say_computed(&problem.dimensions().collect::<Vec<_>>()),
+        false => loaded.say_computed(&only),
+    }
     let file = &arguments.source.file;
     let named = [arguments.json.as_deref(), None];
     let mut results = Results::open([file], named, &arguments.pictures, arguments.quiet)?;

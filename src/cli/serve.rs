@@ -2,7 +2,8 @@
 
 use super::input::Loaded;
 use krawl::edit::{Drag, Ending, Session, Setting};
-use krawl::report::{edit_to_value, figure_to_value};
+use krawl::import::Followed;
+use krawl::report::{edit_to_value, figure_to_value, followed_to_value};
 use krawl::track::Control;
 use serde::Deserialize;
 use serde_json::value::RawValue;
@@ -77,7 +78,7 @@ fn answer(session: &mut Session, loaded: &Loaded, line: &[u8]) -> Value {
             return json!({"status": "error", "reason": format!("{error}; {example}")});
         }
     };
-    let mut answer = match settings(session, &request) {
+    let mut answer = match settings(session, loaded, &request) {
         _ if !request.drag.is_empty() => match drags(session, &request) {
             Err(reason) => json!({"status": "error", "reason": reason}),
             Ok(drags) => {
@@ -90,8 +91,8 @@ fn answer(session: &mut Session, loaded: &Loaded, line: &[u8]) -> Value {
             }
         },
         Err(reason) => json!({"status": "error", "reason": reason}),
-        Ok(settings) if settings.is_empty() => figure_to_value(session),
-        Ok(settings) => {
+        Ok((settings, _)) if settings.is_empty() => figure_to_value(session),
+        Ok((settings, followed)) => {
             let mut control = Control::default();
             let mut edited = match request.probe {
                 true => session.probe(&settings, &mut control),
@@ -99,7 +100,7 @@ fn answer(session: &mut Session, loaded: &Loaded, line: &[u8]) -> Value {
             };
             loaded.add_left_out(&mut edited.account, Some(&edited.points));
             let mut value = edit_to_value(session.problem(), &edited, session.moved());
-            value["warnings"] = loaded.warnings(&settings).into();
+            followed_to_value(session.problem(), &followed, &mut value);
             value["committed"] = json!(!request.probe && edited.ending == Ending::Reached);
             value
         }
@@ -138,14 +139,25 @@ fn drags(session: &Session, request: &Request) -> Result<Vec<Drag>, String> {
     Drag::check(session.problem(), &all).map(|()| all)
 }
 
-fn settings(session: &Session, request: &Request) -> Result<Vec<Setting>, String> {
+/// What is to be set, with what follows from it in the file.
+fn settings(
+    session: &Session,
+    loaded: &Loaded,
+    request: &Request,
+) -> Result<(Vec<Setting>, Followed), String> {
     let problem = session.problem();
     let settings = request.set.iter().map(|(name, value)| {
         Setting::named(problem, name, &number(value)).map_err(|error| error.to_string())
     });
-    let settings = settings.collect::<Result<Vec<_>, _>>()?;
-    if !settings.is_empty() {
-        Setting::check(problem, &settings).map_err(|error| error.to_string())?;
+    let mut settings = settings.collect::<Result<Vec<_>, _>>()?;
+    if settings.is_empty() {
+        return Ok((settings, Followed::default()));
     }
-    Ok(settings)
+    let followed = loaded.followed(problem, &settings);
+    for (index, value) in followed.numbers() {
+        let setting = Setting::new(problem, index, value);
+        settings.push(setting.map_err(|error| followed.in_error(&error))?);
+    }
+    Setting::check(problem, &settings).map_err(|error| error.to_string())?;
+    Ok((settings, followed))
 }

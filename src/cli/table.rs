@@ -75,6 +75,8 @@ pub(super) fn run(arguments: &Arguments, file: &Path) -> Result<u8, Refusal> {
     let asked = Asked::of_dimensions(&loaded.problem, &cells)
         .map_err(|error| format!("{}: {error}", file.display()))?;
     let (columns, problem) = (table.names.len(), &asked.problem);
+    let led = asked.given[..columns].iter().map(|setting| setting.index);
+    loaded.say_computed(&led.collect::<Vec<_>>());
     let measures = arguments.measured.of(problem)?;
     let mut results = arguments.results()?;
     let folder = arguments.out_folder.as_deref();

@@ -78,7 +78,9 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
     arguments.time.begin();
     let file = &arguments.source.file;
-    let (problem, made) = input::whole_of(file, &arguments.source.load()?)?;
+    let loaded = arguments.source.load()?;
+    loaded.say_computed(&loaded.problem.dimensions().collect::<Vec<_>>());
+    let (problem, made) = input::whole_of(file, &loaded)?;
     let made = made.with_other_numbers();
     output::say_if_signs_are_not_looked_at(&problem);
     let named = [arguments.json.as_deref(), arguments.csv.as_deref()];

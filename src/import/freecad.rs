@@ -2,14 +2,20 @@
 //!
 //! Geometry is counted from 0; −1 and −2 are the axes, −3 and below geometry of other objects, which older versions
 //! do not store. A constraint names edges, or points of edges: 1 the start, 2 the end, 3 the centre. What constraints
-//! mean is that of FreeCAD's `Sketch.cpp` and planegcs; expressions are not evaluated, as their values are stored, but which
-//! dimensions they tie to which others is said.
+//! mean is that of FreeCAD's `Sketch.cpp` and planegcs. The values of expressions are stored; where a dimension is set, what is tied
+//! to it by expressions follows.
 
-use super::drawing::Drawing;
-use super::{Figure, Imported, Listed, Places as AllPlaces, Tied};
+mod computed;
+mod formula;
+mod quantity;
+
+use super::drawing::{Drawing, decimal};
+use super::{Figure, Followed, Follower, Imported, Listed, Places as AllPlaces, Tied};
+use crate::edit::Setting;
 use crate::order::InOrder;
 use crate::places::Each as _;
-use crate::problem::{Item, Problem, Shape};
+use crate::problem::{Item, Point, Problem, Shape};
+use computed::{Evaluation, Numbers};
 use roxmltree::{Document, Node};
 use std::collections::HashMap;
 use std::io::{Cursor, Read, Write};
@@ -49,12 +55,12 @@ fn parse(text: &str) -> Result<Document<'_>, String> {
     Document::parse(text).map_err(|e| format!("{DOCUMENT} in it: {e}"))
 }
 
-/// The sketch objects, with their names and labels.
-fn sketches<'a>(document: &'a Document<'a>) -> Vec<(Node<'a, 'a>, String)> {
-    let declared = document
-        .descendants()
-        .filter(|n| n.has_tag_name("Object") && is_sketch(n.attribute("type")));
-    let names: Vec<&str> = declared.filter_map(|n| n.attribute("name")).collect();
+/// The objects, with their names and types.
+fn objects<'a>(document: &'a Document<'a>) -> Vec<(Node<'a, 'a>, &'a str, Option<&'a str>)> {
+    let all = document.descendants();
+    let declared = all.filter(|n| n.has_tag_name("Object"));
+    let kinds = declared.filter_map(|n| Some((n.attribute("name")?, n.attribute("type")?)));
+    let kinds: HashMap<&str, &str> = kinds.collect();
     let data = document
         .descendants()
         .filter(|n| n.has_tag_name("ObjectData"));
@@ -62,8 +68,17 @@ fn sketches<'a>(document: &'a Document<'a>) -> Vec<(Node<'a, 'a>, String)> {
     objects
         .filter_map(|object| {
             let name = object.attribute("name")?;
-            names.contains(&name).then(|| (object, name.to_owned()))
+            Some((object, name, kinds.get(name).copied()))
         })
+        .collect()
+}
+
+/// The sketch objects, with their names.
+fn sketches<'a>(document: &'a Document<'a>) -> Vec<(Node<'a, 'a>, String)> {
+    let all = objects(document).into_iter();
+    let sketches = all.filter(|(_, _, kind)| is_sketch(*kind));
+    sketches
+        .map(|(object, name, _)| (object, name.to_owned()))
         .collect()
 }
 
@@ -164,6 +179,8 @@ pub struct Places {
     numbers: Vec<(Range<usize>, Number, f64)>,
     /// For each constraint of the file where its value is.
     values: Vec<Range<usize>>,
+    /// What expressions compute, and from what.
+    pub computed: Numbers,
 }
 
 struct Reader {
@@ -578,43 +595,140 @@ fn kind_name(kind: i64) -> String {
     name.map_or_else(|| format!("type {kind}"), |name| (*name).to_owned())
 }
 
-/// Whether an expression, or the path of one, names a constraint: `Constraints.width`, or by its number `Constraints[3]`.
-fn names(text: &str, name: &str, number: usize) -> bool {
-    let is_word = |c: char| c.is_alphanumeric() || c == '_';
-    let mut after = text.split("Constraints").skip(1);
-    after.any(|rest| {
-        let by_name = rest.strip_prefix('.').filter(|_| !name.is_empty());
-        let by_name = by_name.map(|rest| rest.strip_prefix("<<").unwrap_or(rest));
-        let by_name = by_name.and_then(|rest| rest.strip_prefix(name));
-        by_name.is_some_and(|rest| !rest.starts_with(is_word))
-            || rest.starts_with(&format!("[{number}]"))
-    })
+/// What a constraint is called: its name, or its place.
+fn constraint_name(index: usize, node: Node) -> String {
+    let given = node.attribute("Name").filter(|name| !name.is_empty());
+    given.map_or_else(|| format!("Constraint{}", index + 1), str::to_owned)
+}
+
+/// The first dimension that a constraint of the file is.
+fn dimension_of(imported: &Imported, source: usize) -> Option<usize> {
+    let mut all = imported.problem.dimensions();
+    all.find(|&index| imported.sources[index] == Some(source))
 }
 
 /// The dimensions that expressions of the sketch compute.
-fn tied(object: Node, imported: &Imported) -> Vec<Tied> {
-    let constraints = constraints(object);
-    let named = |text: &str| -> Vec<usize> {
-        let all = imported.problem.dimensions().filter(|&index| {
-            imported.sources[index].is_some_and(|source| {
-                let name = constraints[source].attribute("Name").unwrap_or("");
-                names(text, name, source)
-            })
-        });
-        all.collect()
-    };
-    let all = listed(object, "ExpressionEngine", "Expression");
-    let tied = all.into_iter().flat_map(|node| {
-        let text = |key: &str| node.attribute(key).unwrap_or("");
-        let (of, expression) = (named(text("path")), text("expression"));
-        let on = named(expression);
-        of.into_iter().map(move |index| Tied {
-            index,
+fn tied(imported: &Imported, numbers: &Numbers) -> Vec<Tied> {
+    let of = |source| dimension_of(imported, source);
+    let tied = numbers.tied().filter_map(|(source, expression)| {
+        Some(Tied {
+            index: of(source)?,
             expression: expression.to_owned(),
-            on: on.clone(),
+            on: numbers
+                .named_in(expression)
+                .into_iter()
+                .filter_map(of)
+                .collect(),
+            fault: numbers.fault(source),
         })
     });
     tied.collect()
+}
+
+/// How a dimension's number in the file goes with the one in the problem: its sign, and what is added to it.
+struct Sense(f64, f64);
+
+impl Sense {
+    /// By what both were as the file was read. Angles are in degrees, and where the file has one beyond 180 the problem has what is left of
+    /// 360.
+    fn new(said: f64, before: f64, is_angle: bool) -> Self {
+        let folded = said.abs() % 360.0;
+        match is_angle {
+            true => {
+                let sign = if folded > 180.0 {
+                    -said.signum()
+                } else {
+                    said.signum()
+                };
+                Sense(sign, said - sign * before)
+            }
+            false => Sense(if said * before < 0.0 { -1.0 } else { 1.0 }, 0.0),
+        }
+    }
+
+    fn in_file(&self, value: f64) -> f64 {
+        self.1 + self.0 * value
+    }
+
+    fn in_problem(&self, said: f64) -> f64 {
+        self.0 * (said - self.1)
+    }
+}
+
+/// What follows by the file's expressions where these dimensions, and cells, are set, and all others are as in `now`.
+pub fn followed(imported: &Imported, places: &Places, now: &Problem, set: &[Setting]) -> Followed {
+    let (numbers, before) = (&places.computed, &imported.problem);
+    let is_set = |index: usize| set.iter().any(|setting| setting.index == index);
+    let is_tied = |index: usize| imported.tied.iter().any(|tied| tied.index == index);
+    let mut then = now.clone();
+    set.iter().for_each(|setting| setting.apply(&mut then));
+    let sense = |index: usize| {
+        let said = numbers.said(imported.sources[index]?)?;
+        let before = super::value(before, index);
+        Some((said, Sense::new(said.value, before, said.is_angle())))
+    };
+    let given = before.dimensions().filter(|&i| is_set(i) || !is_tied(i));
+    let given = given.filter_map(|index| {
+        let (said, sense) = sense(index)?;
+        let number = said.with(sense.in_file(super::value(&then, index)));
+        Some((imported.sources[index]?, number, is_set(index)))
+    });
+    let mut evaluation = Evaluation::new(numbers, given);
+    let mut followed = Followed::default();
+    let is_external = |point: &Point| point.name.starts_with("external");
+    if numbers.set_cells().next().is_some() && before.points.iter().any(is_external) {
+        followed.warnings.push(
+            "geometry of other objects stays where it is here, and may follow from the cell when the file is recomputed there".to_owned(),
+        );
+    }
+    for (source, expression) in numbers.tied() {
+        let index = dimension_of(imported, source);
+        let name = match index {
+            Some(index) => before.dimension_name(index),
+            None => numbers.shown(numbers.entry(source)),
+        };
+        if index.is_some_and(is_set) {
+            followed.warnings.push(format!(
+                "{name} has the expression `{expression}` in the file, by which it is set anew when the file is recomputed there"
+            ));
+            continue;
+        }
+        let value = match numbers.fault(source) {
+            Some(why) => Some(Err(why)),
+            None => evaluation.follows(source),
+        };
+        let why = match (
+            value,
+            index.and_then(|index| Some((index, sense(index)?.1))),
+        ) {
+            (None, _) => continue,
+            (Some(Ok(value)), Some((index, sense))) => {
+                if let Some(value) = decimal(sense.in_problem(value.value)) {
+                    let expression = expression.to_owned();
+                    followed.set.push(Follower {
+                        index,
+                        value,
+                        expression,
+                    });
+                    continue;
+                }
+                "the number is out of range".to_owned()
+            }
+            // Zero still, as a rule.
+            (Some(Ok(value)), None) if numbers.said(source) == Some(value) => continue,
+            (Some(Ok(value)), None) => {
+                format!("it would be {value}, and there is no number here that can be led there")
+            }
+            (Some(Err(why)), _) => why,
+        };
+        let stays = index.map_or(String::new(), |index| {
+            format!(" {}", super::value(now, index))
+        });
+        followed.warnings.push(format!(
+            "{name} has the expression `{expression}` in the file, which is not followed: {why}; it stays{stays} here, and is set anew when the file is recomputed there"
+        ));
+    }
+    followed
 }
 
 pub fn read(bytes: &[u8], index: usize) -> Result<Imported, String> {
@@ -652,9 +766,7 @@ pub fn read(bytes: &[u8], index: usize) -> Result<Imported, String> {
         if !is_driving(node) {
             continue;
         }
-        let given = node.attribute("Name").filter(|name| !name.is_empty());
-        let name = given.map_or_else(|| format!("Constraint{}", index + 1), str::to_owned);
-        reader.drawing.name(index, name);
+        reader.drawing.name(index, constraint_name(index, node));
         if reader.constraint(index, node).is_none() {
             let external = ["First", "Second", "Third"].iter().any(|side| {
                 let id = whole(node, side);
@@ -670,12 +782,18 @@ pub fn read(bytes: &[u8], index: usize) -> Result<Imported, String> {
             reader.drawing.refuse(&kind);
         }
     }
-    let places = AllPlaces::FreeCad(Places {
+    let computed = Numbers::read(&document, &name);
+    let places = Places {
         numbers: reader.numbers,
         values,
-    });
-    let mut imported = reader.drawing.finish(name, "a FreeCAD file", places);
-    imported.tied = tied(object, &imported);
+        computed,
+    };
+    let mut imported = reader
+        .drawing
+        .finish(name, "a FreeCAD file", AllPlaces::FreeCad(places));
+    if let AllPlaces::FreeCad(places) = &imported.places {
+        imported.tied = tied(&imported, &places.computed);
+    }
     Ok(imported)
 }
 
@@ -687,7 +805,15 @@ pub fn rewrite(
     figure: &Figure,
 ) -> Result<Vec<u8>, String> {
     let mut text = document(bytes)?;
-    let mut changes: Vec<(Range<usize>, f64)> = Vec::new();
+    let mut changes: Vec<(Range<usize>, String)> = Vec::new();
+    for (content, range) in places.computed.set_cells() {
+        // What stands for itself in a text, and not in an attribute.
+        let content = content.replace('&', "&amp;").replace('"', "&quot;");
+        changes.push((
+            range.clone(),
+            content.replace('<', "&lt;").replace('\'', "&apos;"),
+        ));
+    }
     for (range, number, before) in &places.numbers {
         let now = match *number {
             Number::Coordinate(point, axis) => figure.points[point][axis],
@@ -711,7 +837,7 @@ pub fn rewrite(
         };
         // Numbers are compared as they are written.
         if format!("{now:.16}") != format!("{before:.16}") {
-            changes.push((range.clone(), now));
+            changes.push((range.clone(), format!("{now:.16}")));
         }
     }
     for changed in super::changed(imported, problem) {
@@ -722,29 +848,26 @@ pub fn rewrite(
             .get(range.clone())
             .and_then(|x| x.parse().ok())
             .unwrap_or(f64::NAN);
-        let value = if changed.is_angle {
-            // As far from the old one as the figure turns, in the file's own sense.
-            let old = degrees(said);
-            let folded = old.abs() % 360.0;
-            let sense = if folded > 180.0 {
-                -old.signum()
-            } else {
-                old.signum()
-            };
-            (old + sense * (changed.value - changed.before)).to_radians()
-        } else if said * changed.before < 0.0 {
-            -changed.value
+        let said = if changed.is_angle {
+            degrees(said)
         } else {
-            changed.value
+            said
         };
-        changes.push((range, value));
+        let sense = Sense::new(said, changed.before, changed.is_angle);
+        let value = sense.in_file(changed.value);
+        let value = if changed.is_angle {
+            value.to_radians()
+        } else {
+            value
+        };
+        changes.push((range, format!("{value:.16}")));
     }
     changes.order_by_key(|change| std::cmp::Reverse(change.0.start));
     for (range, value) in changes {
         if text.get(range.clone()).is_none_or(str::is_empty) {
             return Err("a number is missing: this is another file".to_owned());
         }
-        text.replace_range(range, &format!("{value:.16}"));
+        text.replace_range(range, &value);
     }
     let failed = |error: zip::result::ZipError| error.to_string();
     let mut from = archive(bytes)?;

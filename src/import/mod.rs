@@ -34,6 +34,7 @@ mod slvs;
 pub mod urdf;
 
 use crate::complete::Surplus;
+use crate::edit::Setting;
 use crate::problem::{Decimal, Problem};
 pub use molecule::{Conformer, Skeleton};
 use std::collections::BTreeMap;
@@ -107,7 +108,7 @@ pub struct Imported {
     sources: Vec<Option<usize>>,
 }
 
-/// A dimension that its own program computes by an expression. krawl does not: an edit leaves it as it is.
+/// A dimension that its own program computes by an expression.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Tied {
     /// The index of the dimension.
@@ -116,6 +117,28 @@ pub struct Tied {
     pub expression: String,
     /// The dimensions of the sketch that are named in it, by index.
     pub on: Vec<usize>,
+    /// Why the expression is not followed, where it is not.
+    pub fault: Option<String>,
+}
+
+/// A dimension that is set as others are, by the expression that it has in the file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Follower {
+    /// The index of the dimension.
+    pub index: usize,
+    /// What it is then: what the program computes in floats, as the shortest decimal that reads as that float.
+    pub value: Decimal,
+    /// The expression.
+    pub expression: String,
+}
+
+/// What goes with dimensions that are set.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Followed {
+    /// The dimensions that follow from them.
+    pub set: Vec<Follower>,
+    /// What does not follow, and what its own program will set anew.
+    pub warnings: Vec<String>,
 }
 
 /// Where the numbers of a sketch stand in its file.
@@ -218,8 +241,8 @@ pub fn read(file: &str, bytes: &[u8], sketch: Option<&str>) -> Result<Imported, 
     .map_err(|what| broken(file, what))
 }
 
-/// The file with a sketch's new numbers: the figure, and the values of dimensions in `problem` where they are not
-/// those that were read. All else stays as it is: of a `.slvs` file byte for byte; of a `.FCStd` file, which is an
+/// The file with a sketch's new numbers: the figure, the values of dimensions in `problem` where they are not
+/// those that were read, and cells that were set. All else stays as it is: of a `.slvs` file byte for byte; of a `.FCStd` file, which is an
 /// archive, all other parts as they are packed, and `Document.xml` byte for byte but for those numbers.
 ///
 /// `problem` is [`Imported::problem`] but for the values of dimensions.
@@ -240,41 +263,67 @@ pub fn rewrite(
     }
 }
 
+impl Followed {
+    /// The dimensions that follow, by index, with their new values.
+    pub fn numbers(&self) -> impl Iterator<Item = (usize, Decimal)> {
+        let set = self.set.iter();
+        set.map(|follower| (follower.index, follower.value.clone()))
+    }
+
+    /// Why dimensions cannot be set, with what follows if anything does.
+    pub fn in_error(&self, error: &dyn std::fmt::Display) -> String {
+        let followers = self.set.iter();
+        let by: String = followers
+            .map(|follower| format!("; a number follows by the file's `{}`", follower.expression))
+            .collect();
+        format!("{error}{by}")
+    }
+}
+
 impl Imported {
-    /// What is to be said where these dimensions are set: which others its own program would take along and krawl leaves as they
-    /// are, and which of them it will set anew.
-    pub fn warnings(&self, set: &[usize]) -> Vec<String> {
-        let name = |index: usize| self.problem.dimension_name(index);
-        let mut moved = set.to_vec();
-        let mut warnings = Vec::new();
-        for tied in self.tied.iter().filter(|tied| set.contains(&tied.index)) {
-            warnings.push(format!(
-                "{} has the expression `{}` in the file, by which it is set anew when the file is recomputed there",
-                name(tied.index),
-                tied.expression
-            ));
+    /// The dimensions that follow by the file's expressions where these are set, and all others are what they are in `now`, which is
+    /// [`Imported::problem`] but for the values of dimensions; and what is to be said.
+    #[cfg_attr(not(feature = "freecad"), allow(unused_variables))]
+    pub fn followed(&self, now: &Problem, set: &[Setting]) -> Followed {
+        match &self.places {
+            #[cfg(feature = "freecad")]
+            Places::FreeCad(places) => freecad::followed(self, places, now, set),
+            _ => Followed::default(),
         }
+    }
+
+    /// Gives a cell of the file's spreadsheets, `Spreadsheet.width`, another number, in the unit that it has there: [`Imported::followed`]
+    /// says what follows, and [`rewrite`] writes it. `None`: no cell has that name.
+    #[cfg_attr(not(feature = "freecad"), allow(unused_variables))]
+    pub fn set_cell(&mut self, name: &str, value: &str) -> Option<Result<(), String>> {
+        match &mut self.places {
+            #[cfg(feature = "freecad")]
+            Places::FreeCad(places) => places.computed.set_cell(name, value),
+            _ => None,
+        }
+    }
+
+    /// What is to be said where these dimensions are led, and what is tied to them is not: which of all these its own program computes.
+    pub fn computed(&self, led: &[usize]) -> Option<String> {
+        let mut all: Vec<usize> = led.to_vec();
         // What is tied to what is tied, and so on.
-        while let Some(tied) = self.tied.iter().find(|tied| {
-            !moved.contains(&tied.index) && tied.on.iter().any(|on| moved.contains(on))
-        }) {
-            let on: Vec<String> = tied
-                .on
-                .iter()
-                .filter(|on| moved.contains(on))
-                .map(|&on| name(on))
-                .collect();
-            warnings.push(format!(
-                "{} is tied to {} by the expression `{}` in the file, which krawl does not evaluate: it stays {} here, and is set \
-                 anew when the file is recomputed there",
-                name(tied.index),
-                on.join(" and "),
-                tied.expression,
-                value(&self.problem, tied.index)
-            ));
-            moved.push(tied.index);
+        while let Some(tied) = self
+            .tied
+            .iter()
+            .find(|tied| !all.contains(&tied.index) && tied.on.iter().any(|on| all.contains(on)))
+        {
+            all.push(tied.index);
         }
-        warnings
+        let computed = self.tied.iter().filter(|tied| all.contains(&tied.index));
+        let names: Vec<String> = computed
+            .map(|tied| self.problem.dimension_name(tied.index))
+            .collect();
+        (!names.is_empty()).then(|| {
+            format!(
+                "the file computes {} by expressions, which are not followed here: each is led as if it had none, or stays",
+                crate::problem::list(&names, 10)
+            )
+        })
     }
 
     /// Whether a dimension, by index, is a number that the file has for this sketch: radii of geometry of other groups and

@@ -13,6 +13,7 @@ mod edit;
 #[cfg(feature = "explore")]
 mod explore;
 mod figures;
+mod followed;
 mod json;
 mod marks;
 mod measured;
@@ -59,6 +60,7 @@ pub use figures::{
     Listed, figures_in_words, figures_to_summary, figures_to_table, figures_to_value,
     first_in_words,
 };
+pub use followed::{followed_to_table, followed_to_value, warnings_in_words};
 pub use json::{Beside, JSON_VERSION, Run};
 pub use measured::{Measures, Placed};
 pub use motion::{motion_in_words, motion_to_csv, motion_to_table, motion_to_value};

@@ -8,6 +8,8 @@ mod claims;
 mod drag;
 mod edit;
 mod edit_mixed;
+#[cfg(feature = "freecad")]
+mod expressions;
 mod measures;
 mod motion;
 mod not_square;

@@ -75,7 +75,6 @@ impl Asked {
         is_dimension: impl Fn(&str) -> bool,
     ) -> Result<Self, SettingError> {
         let mut indices: HashMap<&str, usize> = HashMap::new();
-        let mut beyond = HashSet::new();
         let mut given = Vec::with_capacity(named.len());
         let mut set: Vec<(String, Decimal)> = Vec::new();
         for &(name, value) in named {
@@ -107,9 +106,6 @@ impl Asked {
                 let name = problem.dimension_name(index);
                 SettingError::Number { name, error }
             })?;
-            if is_beyond(&value) {
-                beyond.insert(index);
-            }
             if !is_parameter
                 && let Some(expression) = number(problem, index).and_then(Decimal::expression)
             {
@@ -125,14 +121,22 @@ impl Asked {
             if followed.is_empty() {
                 return Err(SettingError::Unused(set.swap_remove(0).0));
             }
-            beyond.extend(
-                followed
-                    .iter()
-                    .filter(|(_, value)| is_beyond(value))
-                    .map(|f| f.0),
-            );
             given.extend(followed);
         }
+        Self::led(problem, parameters, given)
+    }
+
+    /// Dimensions by index, each with its new value, and the parameters as they are then.
+    ///
+    /// # Errors
+    /// As [`Setting::new`].
+    pub fn led(
+        problem: &Problem,
+        parameters: Vec<(String, Decimal)>,
+        given: Vec<(usize, Decimal)>,
+    ) -> Result<Self, SettingError> {
+        let beyond = given.iter().filter(|(_, value)| is_beyond(value));
+        let beyond: HashSet<usize> = beyond.map(|(index, _)| *index).collect();
         let head = problem.distances.len();
         let (problem, places) = with_turns(problem, |c, _| beyond.contains(&(head + c)));
         let mut asked = Asked {
@@ -149,6 +153,13 @@ impl Asked {
             asked.settings.push(setting);
         }
         Ok(asked)
+    }
+
+    /// The dimensions that are set, by index, with their new values.
+    pub fn numbers(&self) -> impl Iterator<Item = (usize, Decimal)> {
+        self.given.iter().map(|setting| match &setting.target {
+            Target::Length(value) | Target::SquaredLength(value) => (setting.index, value.clone()),
+        })
     }
 
     /// Settings of dimensions alone, as [`Asked::new`]: one or several rows of them.

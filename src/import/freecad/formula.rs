@@ -1,0 +1,435 @@
+//! FreeCAD's expressions, as its grammar (`src/App/Expression.y`) reads them: a minus binds closer than a power, so that `-2^2` is 4;
+//! powers go from the left, `2^3^2` is 64; a unit behind a number binds closer than both; numbers have a point, and arguments of functions
+//! have `;` or `,` between them. What else that grammar has (texts, ranges, lists, vectors) is refused.
+
+use super::quantity::{Quantity, call, compare, operate};
+
+/// Parentheses and choices in one another, and signs in a row.
+const DEPTH: usize = 20;
+/// What a part of a path in brackets begins with.
+const INDEX: char = '[';
+
+/// A number, or why there is none.
+pub type Found = Result<Quantity, String>;
+
+/// What is read: an error, that it cannot be, or what it comes to. What is not chosen comes to nothing.
+type Read = Result<Found, String>;
+
+/// A name, `Sketch.Constraints.width` or `B1`.
+pub struct Path<'a> {
+    /// As it is written.
+    pub text: &'a str,
+    /// Whether it begins with a point, so that it is of the object that has the expression.
+    pub is_own: bool,
+    /// Whether the first part is a label, `<<width of all>>`.
+    pub is_label: bool,
+    pub parts: Vec<&'a str>,
+}
+
+impl<'a> Path<'a> {
+    /// A path alone.
+    pub fn read(text: &'a str) -> Result<Self, String> {
+        let mut nothing = |_: &Path| Err(String::new());
+        let mut reader = Reader::new(text, &mut nothing);
+        let path = reader.path()?;
+        reader.end().map(|()| path)
+    }
+
+    /// The number in brackets that a part is.
+    pub fn index(part: &str) -> Option<usize> {
+        part.strip_prefix(INDEX)?.parse().ok()
+    }
+}
+
+/// What an expression comes to, where names have these numbers. It asks for all names.
+pub fn evaluate(text: &str, named: &mut dyn FnMut(&Path) -> Found) -> Found {
+    let mut reader = Reader::new(text, named);
+    let value = reader.choice()?;
+    reader.end()?;
+    value
+}
+
+/// What is left of a text, and how deep in it this is.
+struct Reader<'a, 'n> {
+    rest: &'a str,
+    depth: usize,
+    named: &'n mut dyn FnMut(&Path) -> Found,
+}
+
+fn is_letter(c: char) -> bool {
+    c.is_alphanumeric() || matches!(c, '_' | '@' | '$')
+}
+
+fn begins_with_digit(text: &str) -> bool {
+    text.starts_with(|c: char| c.is_ascii_digit())
+}
+
+impl<'a, 'n> Reader<'a, 'n> {
+    fn new(text: &'a str, named: &'n mut dyn FnMut(&Path) -> Found) -> Self {
+        Reader {
+            rest: text.trim(),
+            depth: 0,
+            named,
+        }
+    }
+
+    fn wrong<T>(&self, what: &str) -> Result<T, String> {
+        let near: String = self.rest.chars().take(20).collect();
+        match near.is_empty() {
+            true => Err(format!("{what} at its end")),
+            false => Err(format!("{what} at `{near}`")),
+        }
+    }
+
+    fn end(&self) -> Result<(), String> {
+        match self.rest.is_empty() {
+            true => Ok(()),
+            false => self.wrong("it cannot be read"),
+        }
+    }
+
+    /// Goes on by so many bytes, and past spaces.
+    fn skip(&mut self, bytes: usize) -> &'a str {
+        let (skipped, rest) = self.rest.split_at(bytes);
+        self.rest = rest.trim_start();
+        skipped
+    }
+
+    fn one_of(&mut self, all: &[&'static str]) -> Option<&'static str> {
+        let next = all
+            .iter()
+            .copied()
+            .find(|next| self.rest.starts_with(next))?;
+        self.skip(next.len());
+        Some(next)
+    }
+
+    fn expect(&mut self, wanted: &'static str) -> Result<(), String> {
+        match self.one_of(&[wanted]) {
+            Some(_) => Ok(()),
+            None => self.wrong(&format!("`{wanted}` is expected")),
+        }
+    }
+
+    /// The letters and digits that come next.
+    fn word(&self) -> &'a str {
+        let end = self.rest.find(|c| !is_letter(c));
+        &self.rest[..end.unwrap_or(self.rest.len())]
+    }
+
+    fn choice(&mut self) -> Read {
+        self.depth += 1;
+        if self.depth > DEPTH {
+            return self.wrong("too much is in one another");
+        }
+        let mut value = self.sum()?;
+        if let Some(operator) = self.one_of(&["==", "!=", "<=", ">=", "<", ">"]) {
+            let other = self.sum()?;
+            self.expect("?")?;
+            let yes = self.choice()?;
+            self.expect(":")?;
+            let no = self.choice()?;
+            let holds = value.and_then(|a| compare(operator, a, other?));
+            value = holds.and_then(|holds| if holds { yes } else { no });
+        }
+        self.depth -= 1;
+        Ok(value)
+    }
+
+    /// Operands with operators between them, from the left.
+    fn chain(&mut self, operators: &[&'static str], operand: fn(&mut Self) -> Read) -> Read {
+        let mut value = operand(self)?;
+        while let Some(operator) = self.one_of(operators) {
+            let by = match operator == "/" && Quantity::unit(self.word()).is_some() {
+                true => self.unit()?,
+                false => operand(self)?,
+            };
+            value = value.and_then(|a| operate(operator, a, by?));
+        }
+        Ok(value)
+    }
+
+    fn sum(&mut self) -> Read {
+        self.chain(&["+", "-"], Self::product)
+    }
+
+    fn product(&mut self) -> Read {
+        self.chain(&["*", "/", "%"], Self::power)
+    }
+
+    fn power(&mut self) -> Read {
+        self.chain(&["^"], Self::signed)
+    }
+
+    fn signed(&mut self) -> Read {
+        let mut is_negative = false;
+        while let Some(sign) = self.one_of(&["-", "+"]) {
+            is_negative ^= sign == "-";
+        }
+        let value = self.atom()?;
+        Ok(value.map(|value| if is_negative { value.negative() } else { value }))
+    }
+
+    fn atom(&mut self) -> Read {
+        let word = self.word();
+        let value = if self.one_of(&["("]).is_some() {
+            let inner = self.choice()?;
+            self.expect(")")?;
+            inner
+        } else if begins_with_digit(self.rest.strip_prefix('.').unwrap_or(self.rest)) {
+            Ok(Quantity::plain(self.number()?))
+        } else if let Some(constant) = Quantity::constant(word) {
+            self.skip(word.len());
+            Ok(constant)
+        } else if !word.is_empty() && self.rest[word.len()..].starts_with('(') {
+            return self.function(word);
+        } else {
+            let path = self.path()?;
+            return Ok((self.named)(&path));
+        };
+        match self
+            .rest
+            .starts_with(|c| is_letter(c) || "'\"°".contains(c))
+        {
+            true => {
+                let unit = self.unit()?;
+                Ok(value.and_then(|value| operate("*", value, unit?)))
+            }
+            false => Ok(value),
+        }
+    }
+
+    fn number(&mut self) -> Result<f64, String> {
+        let rest = self.rest;
+        let digits = |from: usize| {
+            let end = rest[from..].find(|c: char| !c.is_ascii_digit());
+            end.map_or(rest.len(), |end| from + end)
+        };
+        let mut end = digits(0);
+        if rest[end..].starts_with('.') {
+            end = digits(end + 1);
+        }
+        if rest[end..].starts_with(['e', 'E']) {
+            let sign = usize::from(rest[end + 1..].starts_with(['+', '-']));
+            let exponent = end + 1 + sign;
+            end = if digits(exponent) > exponent {
+                digits(exponent)
+            } else {
+                end
+            };
+        }
+        match rest[..end].parse() {
+            Ok(number) if !rest[..end].ends_with('.') => {
+                self.skip(end);
+                Ok(number)
+            }
+            _ => self.wrong("a number is expected"),
+        }
+    }
+
+    /// A unit, to a power or not.
+    fn unit(&mut self) -> Read {
+        let word = match self.rest.chars().next() {
+            Some(c) if !is_letter(c) => &self.rest[..c.len_utf8()],
+            _ => self.word(),
+        };
+        let Some(unit) = Quantity::unit(word) else {
+            return self.wrong("there is no unit of lengths or angles that is known");
+        };
+        self.skip(word.len());
+        if self.one_of(&["^"]).is_none() {
+            return Ok(Ok(unit));
+        }
+        let sign = if self.one_of(&["-"]).is_some() {
+            -1.0
+        } else {
+            1.0
+        };
+        let power = Quantity::plain(sign * self.number()?);
+        Ok(operate("^", unit, power))
+    }
+
+    fn function(&mut self, name: &str) -> Read {
+        self.skip(name.len() + 1);
+        let mut of = Vec::new();
+        loop {
+            of.push(self.choice()?);
+            if self.one_of(&[")"]).is_some() {
+                let of: Result<Vec<_>, _> = of.into_iter().collect();
+                return Ok(of.and_then(|of| call(name, &of)));
+            }
+            if self.rest.strip_prefix(',').is_some_and(begins_with_digit) {
+                return self.wrong("a comma before a digit is read as a point");
+            }
+            if self.one_of(&[";", ","]).is_none() {
+                return self.wrong("`;` or `)` is expected");
+            }
+        }
+    }
+
+    fn path(&mut self) -> Result<Path<'a>, String> {
+        let begin = self.rest;
+        let is_own = self.one_of(&["."]).is_some();
+        let is_label = self.rest.starts_with("<<");
+        let mut parts = vec![self.part()?];
+        while let Some(next) = self.one_of(&[".", "["]) {
+            if next == "." {
+                parts.push(self.part()?);
+                continue;
+            }
+            let digits = self.word();
+            let part = &begin[begin.len() - self.rest.len() - 1..][..digits.len() + 1];
+            if Path::index(part).is_none() {
+                return self.wrong("a number is expected in brackets");
+            }
+            parts.push(part);
+            self.skip(digits.len());
+            self.expect("]")?;
+        }
+        if self.rest.starts_with(['#', '(']) {
+            return self.wrong("there is another document, or what is no function,");
+        }
+        Ok(Path {
+            text: begin[..begin.len() - self.rest.len()].trim_end(),
+            is_own,
+            is_label,
+            parts,
+        })
+    }
+
+    fn part(&mut self) -> Result<&'a str, String> {
+        if let Some(inner) = self.rest.strip_prefix("<<") {
+            let inner = inner.split_once(">>").map(|(inner, _)| inner);
+            return match inner.filter(|inner| !inner.contains('\\')) {
+                Some(inner) => {
+                    self.skip(inner.len() + 4);
+                    Ok(inner)
+                }
+                None => self.wrong("there is a label that is not read"),
+            };
+        }
+        let word = self.word();
+        match word.is_empty() || begins_with_digit(word) {
+            true => self.wrong("a number or a name is expected"),
+            false => Ok(self.skip(word.len())),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    /// The value of an expression where `a` is 20 mm, `Constraints.b` 30 degrees and `<<a sheet>>.n` 7.
+    fn value(text: &str) -> Result<Quantity, String> {
+        evaluate(text, &mut |path| match path.text {
+            "a" => Ok(Quantity::length(20.0)),
+            "Constraints.b" | ".Constraints.b" | "Constraints[3]" => Ok(Quantity::angle(30.0)),
+            "<<a sheet>>.n" => Ok(Quantity::plain(7.0)),
+            other => Err(format!("there is no `{other}`")),
+        })
+    }
+
+    #[test]
+    fn expressions_are_read_as_freecad_reads_them() {
+        for (text, wanted) in [
+            // `%left '^'` stands before `%precedence NEG`: a sign binds closer, and powers go from the left.
+            ("-2 ^ 2", "4"),
+            ("2 ^ 3 ^ 2", "64"),
+            ("2 ^ -1", "0.5"),
+            ("-(2 ^ 2)", "-4"),
+            ("2 + 3 * 4 - 6 / 3", "12"),
+            ("8 / 4 / 2", "1"),
+            ("7 % 4 * 2", "6"),
+            ("--3", "3"),
+            // Units bind closer than operators, and stand behind a division, too.
+            ("2 mm ^ 2", "2 mm^2"),
+            ("10 mm / 4 mm", "2.5"),
+            ("a / mm + 1", "21"),
+            ("a / 1 mm", "20"),
+            ("1 in + 1 cm", "35.4 mm"),
+            ("1' + 2\"", "355.6 mm"),
+            ("2 m", "2000 mm"),
+            ("(2 + 3) mm", "5 mm"),
+            ("pi rad", "180 deg"),
+            ("0.5 rad * 2 / rad", "1"),
+            (".5 + 1e1", "10.5"),
+            ("a / 2 + 2 mm", "12 mm"),
+            ("a*sin(.Constraints.b)", "9.999999999999998 mm"),
+            ("sin(30)", "0.49999999999999994"),
+            ("Constraints[3] / 2", "15 deg"),
+            ("<<a sheet>>.n * a", "140 mm"),
+            ("atan2(1 mm; 1 mm)", "45 deg"),
+            ("hypot(3 mm; 4 mm)", "5 mm"),
+            ("cath(5; 4)", "3"),
+            ("sqrt(16 mm^2)", "4 mm"),
+            ("pow(a; 2) / a", "20 mm"),
+            ("min(3; 2; 5) + max(1, a / mm)", "22"),
+            ("abs(-a)", "20 mm"),
+            ("floor(2.5) + ceil(2.5) + round(2.5) + trunc(-2.5)", "6"),
+            ("round(-2.5)", "-3"),
+            ("mod(7 mm; 4 mm)", "3"),
+            ("exp(0) + log10(100) + log(1)", "3"),
+            ("a > 15 mm ? 1 mm : 2 mm", "1 mm"),
+            ("a > 25 ? 1 : a <= 20 ? 2 : 3", "2"),
+            // What is not chosen is not computed.
+            ("1 == 1 ? 5 : 1 / 0", "5"),
+        ] {
+            assert_eq!(
+                value(text).map(|q| q.to_string()),
+                Ok(wanted.to_owned()),
+                "{text}"
+            );
+        }
+    }
+
+    #[test]
+    fn what_has_no_value_says_why() {
+        for (text, words) in [
+            ("a + 1", "units of 20 mm and 1 do not fit"),
+            ("a * Constraints.b + a", "do not fit"),
+            ("2 kg", "no unit of lengths or angles"),
+            ("a mm", "cannot be read at `mm`"),
+            ("sin(a)", "takes an angle"),
+            ("asin(a)", "no number with a unit"),
+            ("asin(2)", "no such number"),
+            ("sqrt(a)", "no root with a unit"),
+            ("sqrt(-1)", "no such number"),
+            ("a ^ 0.5", "power of 0.5"),
+            ("2 ^ a", "power of 20 mm"),
+            ("1 / 0", "divides by zero"),
+            ("7 % 0", "divides by zero"),
+            ("-7 % 4", "versions of FreeCAD"),
+            ("a % 3 deg", "unit does not fit"),
+            // 0.3 / 0.1 is not quite 3.
+            ("floor(0.3 / 0.1)", "rounding decides"),
+            ("0.1 + 0.2 == 0.3 ? 1 : 2", "rounding decides"),
+            ("Constraints.b >= 30 deg ? 1 : 2", "rounding decides"),
+            ("hypot(3)", "no function `hypot` of 1 number"),
+            ("vector(1; 2; 3)", "no function `vector`"),
+            ("Pad.Length", "there is no `Pad.Length`"),
+            ("Other#Sketch.Constraints.b", "another document"),
+            ("max(1,2)", "comma"),
+            ("3 ? 1 : 2", "cannot be read at `? 1 : 2`"),
+            ("<<text>>.n.", "a number or a name is expected at its end"),
+            ("(1 + 2", "`)` is expected at its end"),
+            ("", "expected at its end"),
+            ("5. + 1", "number is expected"),
+        ] {
+            let error = value(text).unwrap_err();
+            assert!(error.contains(words), "{text}: {error}");
+        }
+        assert!(value(&"(".repeat(2000)).is_err());
+        assert!(value(&"-".repeat(200_000)).is_err());
+        assert!(value(&format!("1{}", "+1".repeat(200_000))).is_ok());
+    }
+
+    proptest! {
+        /// No text makes it panic.
+        #[test]
+        fn no_text_panics(text in "[-+*/^%().;,<>=?:#|0-9a-eimnpt\\[\\]\"' °µ]{0,30}") {
+            let _ = value(&text);
+        }
+    }
+}

@@ -1,0 +1,40 @@
+//! What follows from dimensions that are set, by the expressions of the file.
+
+use crate::import::Followed;
+use crate::problem::Problem;
+use serde_json::{Value, json};
+
+/// Warnings, a line of text each.
+pub fn warnings_in_words(warnings: &[String]) -> String {
+    let lines = warnings.iter();
+    lines
+        .map(|warning| format!("warning             {warning}\n"))
+        .collect()
+}
+
+/// The dimensions that follow, and the warnings, a line of text each.
+pub fn followed_to_table(problem: &Problem, followed: &Followed) -> String {
+    let lines = followed.set.iter().map(|follower| {
+        let name = problem.dimension_name(follower.index);
+        let (value, expression) = (&follower.value, &follower.expression);
+        format!(
+            "led with it         {name} to {value}, computed in floats by the file's `{expression}`\n"
+        )
+    });
+    lines.collect::<String>() + &warnings_in_words(&followed.warnings)
+}
+
+/// The same for programs, into the result of an edit; see docs/using/programs.md.
+pub fn followed_to_value(problem: &Problem, followed: &Followed, edit: &mut Value) {
+    let one = |follower: &crate::import::Follower| {
+        json!({
+            "dimension": problem.dimension_name(follower.index),
+            "value": follower.value.to_f64(),
+            "expression": follower.expression,
+        })
+    };
+    if !followed.set.is_empty() {
+        edit["followed"] = followed.set.iter().map(one).collect();
+    }
+    edit["warnings"] = followed.warnings.clone().into();
+}
