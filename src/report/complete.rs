@@ -292,7 +292,9 @@ fn write_table(out: &mut String, problem: &Problem, result: &Complete) -> std::f
     if !result.turned.is_empty() {
         writeln!(out, "rotations of        {}", result.turned.join(", "))?;
     }
-    writeln!(out, "boxes               {}", result.boxes)?;
+    if result.complex.is_none() {
+        writeln!(out, "boxes               {}", result.boxes)?;
+    }
     writeln!(out, "seconds             {:.4}", result.seconds)?;
     match result.seconds_left {
         Some(left) if left.is_finite() => {

@@ -11,14 +11,14 @@
 use super::coordinates;
 use super::outcome::Method;
 use super::search::Run;
-use super::{Complete, Options};
+use super::{Complete, Options, Unserved};
 use crate::complex::{self, Filling, Lowered, Nature, Template, Ways};
 use crate::interval::DoubleDouble;
 use crate::problem::Problem;
 use crate::system::Homotopy;
 use crate::track::certified::{Relation, prove_figure};
 use crate::track::{FigureBox, Solution};
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 /// Parts looked at by the search that comes first.
@@ -26,43 +26,64 @@ const FIRST: u64 = 4000;
 /// More complex solutions are not looked for.
 const MOST: u128 = 5000;
 
-/// All real solutions, where a short search or the complex solutions tell them.
-pub(super) fn all(problem: &Problem, options: &Options) -> Option<Complete> {
+/// All real solutions, by a short search, by all complex solutions, or else by a search of the rest of the time. `None`: this is no
+/// such problem.
+pub(super) fn all(problem: &Problem, options: &Options) -> Option<Result<Complete, Unserved>> {
     if !problem.points.is_empty() {
         return None;
     }
     let lowered = complex::lower(problem).ok()?;
     lowered.bound.as_ref().filter(|bound| bound.count <= MOST)?;
     let begin = Instant::now();
-    let short = Options {
-        cancel: options.cancel,
-        time: options.time,
-        threads: options.threads,
-        redundant_tolerance: options.redundant_tolerance,
-        most_boxes: options.most_boxes.min(FIRST),
-        ..Options::default()
+    let left = || {
+        let time = options.time;
+        time.map(|time| time.saturating_sub(begin.elapsed()))
     };
-    let first = coordinates::all(problem, &short).ok()?;
-    if !first.was_ended() {
-        return Some(first);
-    }
+    let search = |most_boxes: u64| {
+        let within = Options {
+            cancel: options.cancel,
+            time: left(),
+            most_boxes,
+            threads: options.threads,
+            redundant_tolerance: options.redundant_tolerance,
+            progress: options.progress,
+            ..Options::default()
+        };
+        coordinates::all(problem, &within)
+    };
+    let first = match search(options.most_boxes.min(FIRST)) {
+        Ok(first) if first.was_ended() && options.most_boxes > FIRST => first,
+        decided => return Some(decided),
+    };
     let stop = AtomicBool::new(false);
     let run = Run::new(&stop, options, false);
-    let (near, count) = options.watched(&run, begin, || real(problem, &lowered, options, begin))?;
-    let solutions = proved_near(problem, &near)?;
-    let mut result = Complete::empty(problem, String::new(), begin);
-    result.reason = solutions
-        .is_empty()
-        .then(|| "none of the complex solutions is real".to_owned());
-    result.method = Method::Complex;
-    result.symmetry = first.symmetry;
-    result.driving = first.driving;
-    result.boxes = first.boxes;
-    result.complex = Some(count);
-    result.count = Some(solutions.len() as u64);
-    result.solutions = solutions;
+    let real = options.watched(&run, begin, || {
+        let (near, count) = real(problem, &lowered, options, begin)?;
+        Some((proved_near(problem, &near)?, count))
+    });
+    let is_cancelled = || options.cancel.is_some_and(|c| c.load(Ordering::Relaxed));
+    let mut result = match real {
+        Some((solutions, count)) => Complete {
+            reason: solutions
+                .is_empty()
+                .then(|| "none of the complex solutions is real".to_owned()),
+            method: Method::Complex,
+            symmetry: first.symmetry,
+            driving: first.driving,
+            complex: Some(count),
+            count: Some(solutions.len() as u64),
+            solutions,
+            ..Complete::empty(problem, String::new(), begin)
+        },
+        // What is known by now is not searched again.
+        None if is_cancelled() || left().is_some_and(|left| left.is_zero()) => first,
+        None => match search(options.most_boxes) {
+            Ok(result) => result,
+            refused => return Some(refused),
+        },
+    };
     result.seconds = begin.elapsed().as_secs_f64();
-    Some(result)
+    Some(Ok(result))
 }
 
 /// Points near all real solutions, and the number of complex ones; `None` where that these are all is not proved.

@@ -104,10 +104,11 @@ fn unsigned(problem: &Problem, options: &Options) -> Result<Complete, Unserved> 
         return Ok(Complete::nearly(problem, near, begin));
     }
     if !problem.is_distances_only() {
-        let told = (!wants_one_search).then(|| by_complex::all(problem, options));
-        return told
-            .flatten()
-            .map_or_else(|| coordinates::all(problem, options), Ok);
+        let told = match wants_one_search {
+            true => None,
+            false => by_complex::all(problem, options),
+        };
+        return told.unwrap_or_else(|| coordinates::all(problem, options));
     }
     if !wants_one_search && let Some(result) = parts::searched(problem, options) {
         return Ok(result);

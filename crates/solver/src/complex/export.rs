@@ -231,7 +231,11 @@ mod tests {
                         .fold(scale, |p, &u| p.times(&figure.values[u]));
                     sum = sum.plus(&value);
                 }
-                assert_eq!(sum, system.evaluate(e, |u| figure.values[u].clone()), "{name} {e}");
+                assert_eq!(
+                    sum,
+                    system.evaluate(e, |u| figure.values[u].clone()),
+                    "{name} {e}"
+                );
             }
         }
     }
