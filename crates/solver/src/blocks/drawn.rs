@@ -9,7 +9,7 @@ use super::{Choice, FINE, Row, System};
 use crate::constraint::{Equation, Role};
 use crate::equations::{Form, left_side, slopes};
 use crate::interval::{Real, point};
-use crate::linalg::{Linear, linearised, nearest_zero, scaled};
+use crate::linalg::{Linear, decomposed, linearised, nearest_zero, scaled, shortest};
 use crate::random::Random;
 use crate::rational::Rational;
 use std::collections::{BTreeMap, BTreeSet};
@@ -59,7 +59,7 @@ impl<'a> Floats<'a> {
 
     /// The Jacobian of some rows, each scaled to length 1, and by how much their left-hand sides, scaled, are too large.
     pub fn linearise(&self, rows: &[usize], at: &[f64]) -> Linear {
-        scaled(linearised((rows.len(), at.len()), |r, slope| {
+        scaled(linearised((rows.len(), at.len()), &|r, slope| {
             self.system.rows[rows[r]].evaluate(at, slope) - self.target[rows[r]]
         }))
     }
@@ -68,9 +68,9 @@ impl<'a> Floats<'a> {
     pub fn circuit(&self, others: &[usize], row: usize, at: &[f64]) -> Vec<usize> {
         const PART: f64 = 1e-6;
         let (jacobian, _) = self.linearise(others, at);
-        let wanted = self.linearise(&[row], at).0.transpose();
-        let sum = jacobian.transpose().svd(true, true).solve(&wanted, 1e-9);
-        let parts = sum.map_or(Vec::new(), |sum| sum.iter().copied().collect());
+        let wanted = self.linearise(&[row], at).0.row(0).transpose();
+        let turned = decomposed(jacobian.transpose(), [true, true]);
+        let parts = shortest(&turned, &wanted, 1e-9).map_or(Vec::new(), |sum| sum.data.into());
         let all = others.iter().zip(parts);
         let taken = all.filter(|(_, part)| part.abs() > PART);
         let mut rows: Vec<usize> = taken.map(|(&row, _)| row).collect();
@@ -88,11 +88,11 @@ impl<'a> Floats<'a> {
         if rows.is_empty() {
             return Some(at);
         }
-        self.zero(at, |at| self.linearise(rows, at))
+        self.zero(at, &|at| self.linearise(rows, at))
     }
 
     /// The same of rows that are linearised so.
-    pub fn zero(&self, at: Vec<f64>, linearise: impl Fn(&[f64]) -> Linear) -> Option<Vec<f64>> {
+    pub fn zero(&self, at: Vec<f64>, linearise: &dyn Fn(&[f64]) -> Linear) -> Option<Vec<f64>> {
         let at = nearest_zero(at, 1e-10, linearise)?;
         let all = self.system.unknowns.iter().zip(&at);
         let mut positive = all.filter(|(unknown, _)| unknown.role == Role::Positive);
