@@ -220,8 +220,8 @@ pub(crate) fn seen(problem: &Problem, places: &[Vector]) -> Option<Vec<Vector>> 
 
 /// One solution of each class, and its mirror image where some point is off the line (in space: the plane) of the mirror.
 fn choices(block: &Problem, index: usize, solutions: &[Solution], shared: &[usize]) -> Vec<Choice> {
-    let pairs = block.distances.iter().map(|d| d.points);
-    let all = simplices(block.dimension, block.points.len(), pairs);
+    let pairs: Vec<[usize; 2]> = block.distances.iter().map(|d| d.points).collect();
+    let all = simplices(block.dimension, block.points.len(), &pairs);
     let on_hinge = (0..block.points.len()).map(|p| [shared, &[p]].concat());
     // Any sign does for the first block, which is mirrored as a whole.
     let sets: Vec<Vec<usize>> = match shared.is_empty() {

@@ -49,7 +49,7 @@ impl System {
         (own, poses): &(Vec<Vec<Entry>>, Vec<Posed>),
         points: &[[Interval; 3]],
         unit: f64,
-        unknown: impl Fn(usize) -> Interval,
+        unknown: &dyn Fn(usize) -> Interval,
     ) -> Vec<Located> {
         let d = problem.dimension;
         let value = |entry: Entry| match entry {
@@ -58,7 +58,7 @@ impl System {
             Entry::Zero => exactly(0.0),
         };
         let shapes: Vec<&Shape> = problem.objects.iter().map(|o| &o.shape).collect();
-        locate(&shapes, (own, poses), (d, unit), points, value)
+        locate(&shapes, (own, poses), (d, unit), points, &value)
     }
 
     /// Ranks of the unknowns in a [choice](super::Choice) of what is held: coordinates of points come after others.

@@ -376,7 +376,7 @@ impl ProblemBuilder {
                     place,
                     what: what.to_owned(),
                     name: name.chars().take(MAX_NAME).collect(),
-                    nearest: nearest(name, points.iter().map(|p| p.name.as_str())),
+                    nearest: nearest(name, &mut points.iter().map(|p| p.name.as_str())),
                 })
         };
 

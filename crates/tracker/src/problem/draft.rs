@@ -403,7 +403,7 @@ impl ProblemBuilder {
             let order = KINDS.iter().position(|kind| kind.key() == draft.kind);
             let order = order.ok_or_else(|| ProblemError::UnknownKind {
                 kind: draft.kind.chars().take(MAX_NAME).collect(),
-                nearest: nearest(&draft.kind, KINDS.iter().map(|kind| kind.key())),
+                nearest: nearest(&draft.kind, &mut KINDS.iter().map(|kind| kind.key())),
             })?;
             drafts.push((order, draft));
         }
@@ -469,7 +469,7 @@ fn unknown<'a>(
         place,
         what: what.to_owned(),
         name: name.chars().take(MAX_NAME).collect(),
-        nearest: nearest(name, known.into_iter()),
+        nearest: nearest(name, &mut known.into_iter()),
     }
 }
 

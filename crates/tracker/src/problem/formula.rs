@@ -87,7 +87,7 @@ impl Polynomials<'_> {
         // In an order that does not change from run to run.
         let mut names: Vec<&str> = names.map(|(name, _)| *name).collect();
         names.sort_unstable();
-        let meant = nearest(name, names.into_iter());
+        let meant = nearest(name, &mut names.into_iter());
         let meant = meant.map_or(String::new(), |near| format!("; did you mean `{near}`?"));
         format!(": there is no {what} `{name}`{meant}")
     }

@@ -159,10 +159,10 @@ impl ProblemBuilder {
                 }
                 _ => {
                     let is_body = |o: &&Object| matches!(o.shape, Shape::Body { .. });
-                    let bodies = objects.iter().filter(is_body).map(|o| o.name.as_str());
+                    let mut bodies = objects.iter().filter(is_body).map(|o| o.name.as_str());
                     return Err(ProblemError::UnknownBody {
                         name: name.clone(),
-                        nearest: nearest(name, bodies),
+                        nearest: nearest(name, &mut bodies),
                     });
                 }
             }

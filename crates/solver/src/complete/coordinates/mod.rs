@@ -704,7 +704,7 @@ fn solutions(homotopy: &Homotopy, found: &[FigureBox]) -> Vec<Solution> {
     let figures = found.iter().enumerate();
     let figures = figures.map(|(class, figure)| {
         let points = figure.points(homotopy);
-        let objects = homotopy.locate(&points, |i| figure.figure.enclosure(i));
+        let objects = homotopy.locate(&points, &|i| figure.figure.enclosure(i));
         Solution::located(points, objects, class)
     });
     figures.collect()

@@ -102,7 +102,7 @@ fn chiralities(problem: &Problem) -> Vec<Vec<usize>> {
         }
     }
     let first = |pairs: Vec<[usize; 2]>| {
-        let mut all = simplices(3, problem.points.len(), pairs).into_iter();
+        let mut all = simplices(3, problem.points.len(), &pairs).into_iter();
         all.find(|set| orientation(&sketch, set) != 0)
     };
     each_once(found.into_iter().flatten().filter_map(first))
@@ -116,11 +116,8 @@ fn pairs(problem: &Problem) -> impl Iterator<Item = [usize; 2]> + '_ {
 /// The senses, and each point with two (in space: three) joined to it by distances.
 pub(super) fn followed(problem: &Problem) -> Vec<Vec<usize>> {
     let mut out: BTreeSet<Vec<usize>> = senses(problem).into_iter().collect();
-    out.extend(simplices(
-        problem.dimension,
-        problem.points.len(),
-        pairs(problem),
-    ));
+    let pairs: Vec<[usize; 2]> = pairs(problem).collect();
+    out.extend(simplices(problem.dimension, problem.points.len(), &pairs));
     out.into_iter().collect()
 }
 
