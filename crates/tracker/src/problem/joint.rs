@@ -6,9 +6,10 @@ use super::file::{FileError, Line, Reader};
 use super::{Decimal, DecimalError, JointSort, Object, Point, Pose, ProblemError, Shape};
 use crate::constraint::{base_of, vector};
 use crate::interval::vector::{cross, dot, length, minus, out_of};
+use crate::map::Map;
 use crate::places::{Each as _, array};
 use crate::statement::nearest;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::HashMap;
 use toml_edit::{Item, Key, TableLike, Value};
 
 /// How a joint is written.
@@ -108,7 +109,7 @@ fn screw(degrees: f64, travel: f64) -> Motion {
 #[derive(Debug, Clone, Default)]
 pub(super) struct Drawn {
     /// Where bodies are in the sketch, by name.
-    places: BTreeMap<String, Pose>,
+    places: Map<String, Pose>,
     /// What joints measure in the sketch, by name: degrees, of prismatic ones a length.
     values: HashMap<String, Decimal>,
 }
@@ -151,7 +152,7 @@ impl ProblemBuilder {
         objects: &mut [Object],
     ) -> Result<(), ProblemError> {
         let mut known: HashMap<usize, Motion> = HashMap::new();
-        for (name, pose) in &self.drawn.places {
+        for (name, pose) in self.drawn.places.iter() {
             let is_it = |object: &Object| object.name == *name;
             match objects.iter().position(is_it) {
                 Some(body) if matches!(objects[body].shape, Shape::Body { .. }) => {
