@@ -3,7 +3,7 @@
 use super::builder::{ProblemBuilder, number};
 use super::draft::DraftShape;
 use super::file::{FileError, Line, Reader};
-use super::{Decimal, DecimalError, JointSort, Object, Point, Pose, ProblemError, Shape};
+use super::{Decimal, DecimalError, JointSort, Numeral, Object, Point, Pose, ProblemError, Shape};
 use crate::constraint::{base_of, vector};
 use crate::interval::vector::{cross, dot, length, minus, out_of};
 use crate::map::Map;
@@ -23,11 +23,7 @@ impl Pose {
     ///
     /// # Errors
     /// If a number is no finite decimal.
-    pub fn new<N>(at: [N; 3], z: [N; 3], x: [N; 3]) -> Result<Self, DecimalError>
-    where
-        N: TryInto<Decimal>,
-        DecimalError: From<N::Error>,
-    {
+    pub fn new<N: Numeral>(at: [N; 3], z: [N; 3], x: [N; 3]) -> Result<Self, DecimalError> {
         let three = |of: [N; 3]| -> Result<[Decimal; 3], DecimalError> {
             let [x, y, z] = of.map(number);
             Ok([x?, y?, z?])
