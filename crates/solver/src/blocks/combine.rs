@@ -2,10 +2,11 @@
 
 use crate::interval::point;
 use crate::interval::vector::Vector;
+use crate::map::Map;
 use crate::problem::Problem;
 use crate::system::{Placement, orientation, simplices};
 use crate::track::Solution;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::HashMap;
 
 /// A figure of a block that takes part.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -109,11 +110,8 @@ impl<'s> Combined<'s> {
             return;
         }
         let has_all_images = |joint: &Joint| {
-            let mut of: BTreeMap<usize, usize> = BTreeMap::new();
-            for choice in &joint.choices {
-                *of.entry(choice.solution).or_default() += 1;
-            }
-            of.values().all(|&count| count == 2)
+            let of = Map::sums(joint.choices.iter().map(|choice| (choice.solution, 1)));
+            of.iter().all(|(_, &count)| count == 2)
         };
         self.halved = self.joints.iter().position(has_all_images);
         if let Some(k) = self.halved {

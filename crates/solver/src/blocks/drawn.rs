@@ -10,9 +10,10 @@ use crate::constraint::{Equation, Role};
 use crate::equations::{Form, left_side, slopes};
 use crate::interval::{Real, point};
 use crate::linalg::{Linear, decomposed, linearised, nearest_zero, scaled, shortest};
+use crate::map::Map;
+use crate::order::each_once;
 use crate::random::Random;
 use crate::rational::Rational;
-use std::collections::{BTreeMap, BTreeSet};
 
 /// More unknowns are not looked at: it would take seconds.
 pub(crate) const MANY: usize = 250;
@@ -121,9 +122,9 @@ pub(crate) fn look(
     let kept: Vec<usize> = all.iter().copied().filter(|&r| structural[r]).collect();
     let circuits = choice.redundant.iter();
     let rows = circuits.flat_map(|&row| floats.circuit(&choice.used, row, at));
-    let rows: BTreeSet<usize> = rows.collect();
+    let rows = each_once(rows);
     let of = |row: &usize| &floats.system.rows[*row].unknowns;
-    let unknowns: BTreeSet<usize> = rows.iter().flat_map(of).copied().collect();
+    let unknowns = each_once(rows.iter().flat_map(of).copied());
     let beside = |way: u64| {
         let mut random = Random::new(way / 2 + 1);
         let sign = if way.is_multiple_of(2) { MOVED } else { -MOVED };
@@ -153,10 +154,12 @@ pub(crate) fn look(
 impl Row {
     /// The largest derivative of the left-hand side at a place, and the length of its gradient.
     pub(crate) fn steepness(&self, at: &[f64]) -> (f64, f64) {
-        let mut slopes: BTreeMap<usize, f64> = BTreeMap::new();
-        self.evaluate(at, |u, slope| *slopes.entry(u).or_default() += slope);
-        let steepest = slopes.values().fold(0.0, |max: f64, s| max.max(s.abs()));
-        let squares: f64 = slopes.values().map(|slope| slope * slope).sum();
+        let mut slopes = Vec::new();
+        self.evaluate(at, |u, slope| slopes.push((u, slope)));
+        let slopes = Map::sums(slopes);
+        let slopes = slopes.iter().map(|(_, slope)| slope);
+        let steepest = slopes.clone().fold(0.0, |max: f64, s| max.max(s.abs()));
+        let squares: f64 = slopes.map(|slope| slope * slope).sum();
         let least = f64::MIN_POSITIVE;
         (steepest.max(least), squares.sqrt().max(least))
     }
