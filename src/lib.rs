@@ -75,6 +75,7 @@
 //! - [`equations`]: rows of products of differences
 //! - `elimination`: row echelon forms and inverses over any field
 //! - [`rational`]: exact ratios
+//! - `map`: values by key, in one list
 //! - `decimal`: exact numbers as they are written
 //! - `residues`: numbers modulo a prime
 //! - [`interval`]: enclosures of exact numbers, bounds on rounding

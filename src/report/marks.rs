@@ -21,8 +21,8 @@ pub(super) struct Marks {
 impl Marks {
     /// The sets of a problem, and their signs in its sketch; none where there are too many.
     pub fn new(problem: &Problem) -> Self {
-        let pairs = problem.distances.iter().map(|d| d.points);
-        let mut sets = simplices(problem.dimension, problem.points.len(), pairs);
+        let pairs: Vec<[usize; 2]> = problem.distances.iter().map(|d| d.points).collect();
+        let mut sets = simplices(problem.dimension, problem.points.len(), &pairs);
         if sets.len() > MOST {
             sets.clear();
         }

@@ -29,6 +29,8 @@ pub mod interval;
 #[doc(hidden)]
 pub mod linalg;
 #[doc(hidden)]
+pub mod map;
+#[doc(hidden)]
 pub mod order;
 #[doc(hidden)]
 pub mod places;

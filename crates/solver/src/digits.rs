@@ -20,11 +20,11 @@
 
 use crate::elimination::invert;
 use crate::interval::{Ball, Interval, enclose_rational, point};
+use crate::order::each_once;
 use crate::problem::{Decimal, Problem, Shape};
 use crate::rational::Rational;
 use crate::system::{Homotopy, Located};
 use num_bigint::BigInt;
-use std::collections::BTreeSet;
 
 /// More digits are not told: right-hand sides that are no ratios are known to some more.
 pub const MOST_DIGITS: u32 = 60;
@@ -285,13 +285,14 @@ fn refined(homotopy: &Homotopy, near: &[f64], bits: i64) -> Option<Vec<Ball>> {
     let missed = missed(&x);
     let is_met = |e: usize| missed[e].is_zero() && rights[e].radius.is_zero();
     let is_zero = (0..m).all(is_met);
-    let alone: BTreeSet<usize> = (0..m)
+    let alone: Vec<usize> = (0..m)
         .filter(|&e| is_met(e))
         .filter_map(|e| {
             let entries = terms[e].iter().flat_map(|p| p.entries()).flatten();
-            let own: BTreeSet<usize> = entries.collect();
-            let &i = own.first()?;
-            (own.len() == 1 && !jacobian[e][i].contains(0.0)).then_some(i)
+            match each_once(entries)[..] {
+                [i] => (!jacobian[e][i].contains(0.0)).then_some(i),
+                _ => None,
+            }
         })
         .collect();
     let balls = x.into_iter().enumerate().map(|(i, middle)| Ball {

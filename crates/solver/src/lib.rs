@@ -15,7 +15,7 @@ pub use krawl_tracker::{
 };
 #[doc(hidden)]
 pub use krawl_tracker::{
-    debug_in_words, decimal, elimination, hexadecimal, linalg, order, places, plan, random,
+    debug_in_words, decimal, elimination, hexadecimal, linalg, map, order, places, plan, random,
     residues, sets, statement,
 };
 

@@ -1,6 +1,8 @@
 //! Newton's method for equations that may depend on each other, in floats.
+//!
+//! Nothing here is generic, so that what it uses of nalgebra is built once, and not again in each package that calls it.
 
-use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn, Matrix3, SVD};
 
 /// The Jacobian of equations at a point, and by how much each is not met there.
 pub type Linear = (DMatrix<f64>, DVector<f64>);
@@ -9,7 +11,7 @@ pub type Linear = (DMatrix<f64>, DVector<f64>);
 /// much it is not met.
 pub fn linearised(
     (rows, columns): (usize, usize),
-    each: impl Fn(usize, &mut dyn FnMut(usize, f64)) -> f64,
+    each: &dyn Fn(usize, &mut dyn FnMut(usize, f64)) -> f64,
 ) -> Linear {
     let (mut jacobian, mut off) = (DMatrix::zeros(rows, columns), DVector::zeros(rows));
     for row in 0..rows {
@@ -30,6 +32,28 @@ pub fn scaled((mut jacobian, mut off): Linear) -> Linear {
     (jacobian, off)
 }
 
+/// A matrix decomposed into singular values, with the vectors to the left and to the right if they are wanted.
+pub fn decomposed(matrix: DMatrix<f64>, [left, right]: [bool; 2]) -> SVD<f64, Dyn, Dyn> {
+    matrix.svd(left, right)
+}
+
+/// The shortest vector that a decomposed matrix takes as near to another as it can, singular values up to `zero` counting as
+/// zero. `None`: the vectors to one side are not known.
+pub fn shortest(
+    matrix: &SVD<f64, Dyn, Dyn>,
+    image: &DVector<f64>,
+    zero: f64,
+) -> Option<DVector<f64>> {
+    matrix.solve(image, zero).ok()
+}
+
+/// The greatest coordinate of the vector that a symmetric matrix shortens most.
+pub fn weakest(matrix: Matrix3<f64>) -> usize {
+    let eigen = matrix.symmetric_eigen();
+    let least = eigen.eigenvectors.column(eigen.eigenvalues.imin());
+    least.iamax()
+}
+
 const STEPS: usize = 60;
 
 /// (JᵀJ + ε)⁻¹, for the steps of Levenberg and Marquardt. `None`: J is not finite, or ε is below rounding.
@@ -46,7 +70,7 @@ pub fn damped(j: &DMatrix<f64>, epsilon: f64) -> Option<Cholesky<f64, Dyn>> {
 pub fn nearest(
     mut x: DVector<f64>,
     [met, size]: [f64; 2],
-    linearise: impl Fn(&[f64]) -> Linear,
+    linearise: &dyn Fn(&[f64]) -> Linear,
 ) -> DVector<f64> {
     let (mut damping, mut here) = (1e-3, linearise(x.as_slice()));
     for _ in 0..STEPS {
@@ -72,7 +96,7 @@ pub fn nearest(
 pub fn nearest_zero(
     mut x: Vec<f64>,
     zero: f64,
-    linearise: impl Fn(&[f64]) -> Linear,
+    linearise: &dyn Fn(&[f64]) -> Linear,
 ) -> Option<Vec<f64>> {
     const FAR: f64 = 1e3;
     for _ in 0..STEPS {
@@ -85,7 +109,7 @@ pub fn nearest_zero(
         if !jacobian.iter().chain(&off).all(|x| x.is_finite()) {
             return None;
         }
-        let step = jacobian.svd(true, true).solve(&off, zero).ok()?;
+        let step = shortest(&decomposed(jacobian, [true, true]), &off, zero)?;
         x.iter_mut().zip(step.iter()).for_each(|(x, s)| *x -= s);
         if !x.iter().all(|x| x.abs() <= FAR * size) {
             return None;

@@ -17,7 +17,9 @@ mod span;
 pub use axes::with_axes;
 pub use inverse::{Inverter, Singular};
 pub use large::{LARGE, Workers};
-pub use least::{Linear, damped, linearised, nearest, nearest_zero, scaled};
+pub use least::{
+    Linear, damped, decomposed, linearised, nearest, nearest_zero, scaled, shortest, weakest,
+};
 pub use matrix::{LANE, Matrix, Sparse, Vector};
 pub use rank::extreme_pivots;
 pub use span::Span;

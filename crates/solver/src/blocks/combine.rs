@@ -2,10 +2,11 @@
 
 use crate::interval::point;
 use crate::interval::vector::Vector;
+use crate::map::Map;
 use crate::problem::Problem;
 use crate::system::{Placement, orientation, simplices};
 use crate::track::Solution;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::HashMap;
 
 /// A figure of a block that takes part.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -109,11 +110,8 @@ impl<'s> Combined<'s> {
             return;
         }
         let has_all_images = |joint: &Joint| {
-            let mut of: BTreeMap<usize, usize> = BTreeMap::new();
-            for choice in &joint.choices {
-                *of.entry(choice.solution).or_default() += 1;
-            }
-            of.values().all(|&count| count == 2)
+            let of = Map::sums(joint.choices.iter().map(|choice| (choice.solution, 1)));
+            of.iter().all(|(_, &count)| count == 2)
         };
         self.halved = self.joints.iter().position(has_all_images);
         if let Some(k) = self.halved {
@@ -220,8 +218,8 @@ pub(crate) fn seen(problem: &Problem, places: &[Vector]) -> Option<Vec<Vector>> 
 
 /// One solution of each class, and its mirror image where some point is off the line (in space: the plane) of the mirror.
 fn choices(block: &Problem, index: usize, solutions: &[Solution], shared: &[usize]) -> Vec<Choice> {
-    let pairs = block.distances.iter().map(|d| d.points);
-    let all = simplices(block.dimension, block.points.len(), pairs);
+    let pairs: Vec<[usize; 2]> = block.distances.iter().map(|d| d.points).collect();
+    let all = simplices(block.dimension, block.points.len(), &pairs);
     let on_hinge = (0..block.points.len()).map(|p| [shared, &[p]].concat());
     // Any sign does for the first block, which is mirrored as a whole.
     let sets: Vec<Vec<usize>> = match shared.is_empty() {

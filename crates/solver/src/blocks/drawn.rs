@@ -9,10 +9,11 @@ use super::{Choice, FINE, Row, System};
 use crate::constraint::{Equation, Role};
 use crate::equations::{Form, left_side, slopes};
 use crate::interval::{Real, point};
-use crate::linalg::{Linear, linearised, nearest_zero, scaled};
+use crate::linalg::{Linear, decomposed, linearised, nearest_zero, scaled, shortest};
+use crate::map::Map;
+use crate::order::each_once;
 use crate::random::Random;
 use crate::rational::Rational;
-use std::collections::{BTreeMap, BTreeSet};
 
 /// More unknowns are not looked at: it would take seconds.
 pub(crate) const MANY: usize = 250;
@@ -59,7 +60,7 @@ impl<'a> Floats<'a> {
 
     /// The Jacobian of some rows, each scaled to length 1, and by how much their left-hand sides, scaled, are too large.
     pub fn linearise(&self, rows: &[usize], at: &[f64]) -> Linear {
-        scaled(linearised((rows.len(), at.len()), |r, slope| {
+        scaled(linearised((rows.len(), at.len()), &|r, slope| {
             self.system.rows[rows[r]].evaluate(at, slope) - self.target[rows[r]]
         }))
     }
@@ -68,9 +69,9 @@ impl<'a> Floats<'a> {
     pub fn circuit(&self, others: &[usize], row: usize, at: &[f64]) -> Vec<usize> {
         const PART: f64 = 1e-6;
         let (jacobian, _) = self.linearise(others, at);
-        let wanted = self.linearise(&[row], at).0.transpose();
-        let sum = jacobian.transpose().svd(true, true).solve(&wanted, 1e-9);
-        let parts = sum.map_or(Vec::new(), |sum| sum.iter().copied().collect());
+        let wanted = self.linearise(&[row], at).0.row(0).transpose();
+        let turned = decomposed(jacobian.transpose(), [true, true]);
+        let parts = shortest(&turned, &wanted, 1e-9).map_or(Vec::new(), |sum| sum.data.into());
         let all = others.iter().zip(parts);
         let taken = all.filter(|(_, part)| part.abs() > PART);
         let mut rows: Vec<usize> = taken.map(|(&row, _)| row).collect();
@@ -88,11 +89,11 @@ impl<'a> Floats<'a> {
         if rows.is_empty() {
             return Some(at);
         }
-        self.zero(at, |at| self.linearise(rows, at))
+        self.zero(at, &|at| self.linearise(rows, at))
     }
 
     /// The same of rows that are linearised so.
-    pub fn zero(&self, at: Vec<f64>, linearise: impl Fn(&[f64]) -> Linear) -> Option<Vec<f64>> {
+    pub fn zero(&self, at: Vec<f64>, linearise: &dyn Fn(&[f64]) -> Linear) -> Option<Vec<f64>> {
         let at = nearest_zero(at, 1e-10, linearise)?;
         let all = self.system.unknowns.iter().zip(&at);
         let mut positive = all.filter(|(unknown, _)| unknown.role == Role::Positive);
@@ -121,9 +122,9 @@ pub(crate) fn look(
     let kept: Vec<usize> = all.iter().copied().filter(|&r| structural[r]).collect();
     let circuits = choice.redundant.iter();
     let rows = circuits.flat_map(|&row| floats.circuit(&choice.used, row, at));
-    let rows: BTreeSet<usize> = rows.collect();
+    let rows = each_once(rows);
     let of = |row: &usize| &floats.system.rows[*row].unknowns;
-    let unknowns: BTreeSet<usize> = rows.iter().flat_map(of).copied().collect();
+    let unknowns = each_once(rows.iter().flat_map(of).copied());
     let beside = |way: u64| {
         let mut random = Random::new(way / 2 + 1);
         let sign = if way.is_multiple_of(2) { MOVED } else { -MOVED };
@@ -153,10 +154,12 @@ pub(crate) fn look(
 impl Row {
     /// The largest derivative of the left-hand side at a place, and the length of its gradient.
     pub(crate) fn steepness(&self, at: &[f64]) -> (f64, f64) {
-        let mut slopes: BTreeMap<usize, f64> = BTreeMap::new();
-        self.evaluate(at, |u, slope| *slopes.entry(u).or_default() += slope);
-        let steepest = slopes.values().fold(0.0, |max: f64, s| max.max(s.abs()));
-        let squares: f64 = slopes.values().map(|slope| slope * slope).sum();
+        let mut slopes = Vec::new();
+        self.evaluate(at, |u, slope| slopes.push((u, slope)));
+        let slopes = Map::sums(slopes);
+        let slopes = slopes.iter().map(|(_, slope)| slope);
+        let steepest = slopes.clone().fold(0.0, |max: f64, s| max.max(s.abs()));
+        let squares: f64 = slopes.map(|slope| slope * slope).sum();
         let least = f64::MIN_POSITIVE;
         (steepest.max(least), squares.sqrt().max(least))
     }

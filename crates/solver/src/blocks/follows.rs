@@ -12,10 +12,11 @@
 
 use super::Row;
 use crate::interval::Real;
+use crate::map::Map;
+use crate::order::each_once;
 use crate::rational::Rational;
 use crate::system::Term;
 use num_bigint::BigInt;
-use std::collections::{BTreeMap, BTreeSet};
 
 /// Larger eliminations are not made: nothing is said then.
 const MOST: usize = 600;
@@ -24,7 +25,7 @@ const MOST: usize = 600;
 type Monomial = Vec<usize>;
 
 /// A polynomial.
-type Polynomial = BTreeMap<Monomial, Rational>;
+type Polynomial = Map<Monomial, Rational>;
 
 /// An equation that holds.
 #[derive(Debug, Clone)]
@@ -40,7 +41,7 @@ pub struct Combination {
     /// The equations i, by their places among those given, with their factors.
     pub sum: Vec<(usize, Rational)>,
     /// The equations k, which must keep their right-hand sides.
-    pub kept: BTreeSet<usize>,
+    pub kept: Vec<usize>,
 }
 
 impl Given {
@@ -57,7 +58,7 @@ impl Given {
     /// An unknown that is held at a number.
     pub fn held(unknown: usize, at: &Real) -> Self {
         Given {
-            left: BTreeMap::from([(vec![unknown], Rational::one())]),
+            left: Map::sums([(vec![unknown], Rational::one())]),
             constant: at.as_rational().cloned(),
         }
     }
@@ -77,40 +78,23 @@ fn constant(right: &[Real]) -> Option<Rational> {
 
 /// ½ Σ factor · left · right, multiplied out.
 fn polynomial(products: &[Term]) -> Polynomial {
-    let mut out = Polynomial::new();
-    for (monomial, factor) in products.iter().flat_map(|p| p.multiplied_out()) {
-        let factor = Rational::new(BigInt::from(factor), 2.into());
-        add(&mut out, monomial, &factor);
-    }
-    out
-}
-
-fn add(to: &mut Polynomial, monomial: Monomial, factor: &Rational) {
-    let entry = to.entry(monomial).or_insert_with(Rational::zero);
-    *entry += factor;
-    let is_gone = entry.is_zero();
-    if is_gone {
-        to.retain(|_, factor| !factor.is_zero());
-    }
+    let all = products.iter().flat_map(|p| p.multiplied_out());
+    let half = |factor| Rational::new(BigInt::from(factor), 2.into());
+    Map::sums(all.map(|(monomial, factor)| (monomial, half(factor))))
 }
 
 /// A polynomial, and the given equations, times unknowns or not, that it is made of.
 #[derive(Debug, Clone)]
 struct Made {
     polynomial: Polynomial,
-    of: BTreeMap<(usize, Option<usize>), Rational>,
+    of: Map<(usize, Option<usize>), Rational>,
 }
 
 impl Made {
     /// Takes a multiple of another away.
     fn reduce(&mut self, other: &Made, factor: &Rational) {
-        for (monomial, value) in &other.polynomial {
-            add(&mut self.polynomial, monomial.clone(), &-(factor * value));
-        }
-        for (source, value) in &other.of {
-            *self.of.entry(*source).or_insert_with(Rational::zero) -= factor * value;
-        }
-        self.of.retain(|_, value| !value.is_zero());
+        self.polynomial.add(&-factor, &other.polynomial);
+        self.of.add(&-factor, &other.of);
     }
 }
 
@@ -121,16 +105,16 @@ pub fn combination(row: &Row, given: &[Given]) -> Option<Combination> {
     for (index, one) in given.iter().enumerate() {
         made.push(Made {
             polynomial: one.left.clone(),
-            of: BTreeMap::from([((index, None), Rational::one())]),
+            of: Map::sums([((index, None), Rational::one())]),
         });
     }
     // Unknowns that stand beside another one in a product.
     let all = given.iter().map(|one| &one.left).chain([&target]);
-    let mut partners: BTreeMap<usize, BTreeSet<usize>> = BTreeMap::new();
+    let mut partners: Map<usize, Vec<usize>> = Map::default();
     for monomial in all.flat_map(|left| left.keys()) {
         if let [a, b] = monomial[..] {
-            partners.entry(a).or_default().insert(b);
-            partners.entry(b).or_default().insert(a);
+            partners.or_insert(a, Vec::new()).push(b);
+            partners.or_insert(b, Vec::new()).push(a);
         }
     }
     for (index, one) in given.iter().enumerate() {
@@ -139,30 +123,31 @@ pub fn combination(row: &Row, given: &[Given]) -> Option<Combination> {
         };
         let unknowns = one.left.keys().flatten();
         let beside = unknowns.filter_map(|u| partners.get(u)).flatten();
-        for &x in beside.collect::<BTreeSet<_>>() {
-            let mut polynomial = Polynomial::new();
-            for (monomial, factor) in &one.left {
+        for x in each_once(beside.copied()) {
+            let products = one.left.iter().map(|(monomial, factor)| {
                 let mut product = [monomial.as_slice(), &[x]].concat();
                 product.sort_unstable();
-                add(&mut polynomial, product, factor);
-            }
-            add(&mut polynomial, vec![x], &-constant);
+                (product, factor.clone())
+            });
             made.push(Made {
-                polynomial,
-                of: BTreeMap::from([((index, Some(x)), Rational::one())]),
+                polynomial: Map::sums(products.chain([(vec![x], -constant)])),
+                of: Map::sums([((index, Some(x)), Rational::one())]),
             });
         }
     }
     if made.len() > MOST {
         return None;
     }
-    let mut basis: BTreeMap<Monomial, Made> = BTreeMap::new();
-    let reduced = |mut one: Made, basis: &BTreeMap<Monomial, Made>| {
+    let mut basis: Map<Monomial, Made> = Map::default();
+    let reduced = |mut one: Made, basis: &Map<Monomial, Made>| {
         let mut done: Option<Monomial> = None;
         loop {
-            let next = one.polynomial.iter().rev();
-            let mut next = next.filter(|(monomial, _)| done.as_ref().is_none_or(|d| *monomial < d));
-            let Some((monomial, factor)) = next.next().map(|(m, f)| (m.clone(), f.clone())) else {
+            let next = one
+                .polynomial
+                .iter()
+                .rev()
+                .find(|(monomial, _)| done.as_ref().is_none_or(|d| *monomial < d));
+            let Some((monomial, factor)) = next.map(|(m, f)| (m.clone(), f.clone())) else {
                 return one;
             };
             if let Some(other) = basis.get(&monomial) {
@@ -183,25 +168,21 @@ pub fn combination(row: &Row, given: &[Given]) -> Option<Combination> {
     }
     let wanted = Made {
         polynomial: target,
-        of: BTreeMap::new(),
+        of: Map::default(),
     };
     let left = reduced(wanted, &basis);
     if !left.polynomial.is_empty() {
         return None;
     }
-    let mut out = Combination {
-        sum: Vec::new(),
-        kept: BTreeSet::new(),
-    };
+    let (mut sum, mut kept) = (Vec::new(), Vec::new());
     for ((index, times), factor) in left.of {
         match times {
-            None => out.sum.push((index, -factor)),
-            Some(_) => {
-                out.kept.insert(index);
-            }
+            None => sum.push((index, -factor)),
+            Some(_) => kept.push(index),
         }
     }
-    Some(out)
+    let kept = each_once(kept);
+    Some(Combination { sum, kept })
 }
 
 impl Combination {

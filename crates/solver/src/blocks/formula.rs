@@ -262,6 +262,7 @@ fn contracted(rows: &[Local], solution: Vec<Number>) -> Vec<Number> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::map::Map;
     use crate::rational::Rational;
 
     fn ratio(a: i64, b: i64) -> Number {
@@ -273,7 +274,7 @@ mod tests {
         let zero = Number::halves(0);
         let half = |x: &Number| Number::halves(1).times(x).times(x);
         Local {
-            quadratic: [((0, 0), 1), ((1, 1), 1)].into(),
+            quadratic: Map::sums([((0, 0), 1), ((1, 1), 1)]),
             linear: vec![zero.minus(cx), zero.minus(cy)],
             constant: half(cx)
                 .plus(&half(cy))
@@ -324,7 +325,7 @@ mod tests {
         };
         // (x − 3)²: the derivative at 3 ± 10⁻⁴⁰, which no float tells from 3.
         let rows = [Local {
-            quadratic: [((0, 0), 2)].into(),
+            quadratic: Map::sums([((0, 0), 2)]),
             linear: vec![ratio(-6, 1)],
             constant: ratio(5, 1),
         }];

@@ -4,13 +4,13 @@ use super::Row;
 use super::number::Number;
 use crate::equations::Form;
 use crate::interval::{Interval, point};
-use std::collections::BTreeMap;
+use crate::map::Map;
 
 /// `Σ Q_ij x_i x_j / 2 + Σ b_i x_i + c = 0`.
 #[derive(Debug, Clone)]
 pub struct Local {
     /// Q_ij with i ≤ j, whole numbers that are not zero.
-    pub quadratic: BTreeMap<(usize, usize), i64>,
+    pub quadratic: Map<(usize, usize), i64>,
     /// b, one for each unknown.
     pub linear: Vec<Number>,
     /// c.
@@ -24,23 +24,23 @@ impl Local {
             None => Err(Number::halves(0)),
             Some(u) => own.iter().position(|&o| o == u).ok_or_else(|| value(u)),
         };
+        let mut quadratic = Vec::new();
         let mut out = Local {
-            quadratic: BTreeMap::new(),
+            quadratic: Map::default(),
             linear: vec![Number::halves(0); own.len()],
             constant: Number::halves(0).minus(right),
         };
         for p in &row.products {
             let parts = p.expand(of);
             let half = Number::halves(p.factor.into());
-            for (key, sign) in parts.products {
-                *out.quadratic.entry(key).or_default() += i64::from(p.factor * sign);
-            }
+            let products = parts.products.into_iter();
+            quadratic.extend(products.map(|(key, sign)| (key, i64::from(p.factor * sign))));
             for (i, by) in parts.linear {
                 out.linear[i] = out.linear[i].plus(&half.times(&by));
             }
             out.constant = out.constant.plus(&half.times(&parts.constant));
         }
-        out.quadratic.retain(|_, factor| *factor != 0);
+        out.quadratic = Map::sums(quadratic);
         out
     }
 
@@ -65,7 +65,7 @@ impl Local {
     /// Its derivatives at numbers: ratios where all of them are.
     pub fn derivatives(&self, at: &[Number]) -> Vec<Number> {
         let mut out = self.linear.clone();
-        for (&(i, j), &q) in &self.quadratic {
+        for (&(i, j), &q) in self.quadratic.iter() {
             let half = Number::halves(q);
             let (of_i, of_j) = (half.times(&at[j]), half.times(&at[i]));
             out[i] = out[i].plus(&of_i);
@@ -77,7 +77,7 @@ impl Local {
     /// Its derivatives on a box.
     pub fn gradient(&self, at: &[Interval]) -> Vec<Interval> {
         let mut out: Vec<Interval> = self.linear.iter().map(Number::enclosure).collect();
-        for (&(i, j), &q) in &self.quadratic {
+        for (&(i, j), &q) in self.quadratic.iter() {
             let half = point(0.5 * q as f64);
             out[i] += half * at[j];
             out[j] += half * at[i];

@@ -3,11 +3,13 @@
 use crate::constraint::{Entry, Lowered, Nonzero, Posed, Role, Unknown};
 use crate::equations::Form;
 use crate::interval::{Interval, Real, enclose, point as exactly};
+use crate::map::Map;
+use crate::order::each_once;
 use crate::places::{Each as _, array};
 use crate::problem::{Problem, Shape};
 use crate::sets::Joined;
 use crate::system::{Located, Term, locate};
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::HashMap;
 
 /// An equation in merged unknowns, `½ Σ factor · left · right = E(t)`.
 #[derive(Debug, Clone)]
@@ -49,7 +51,7 @@ impl System {
         (own, poses): &(Vec<Vec<Entry>>, Vec<Posed>),
         points: &[[Interval; 3]],
         unit: f64,
-        unknown: impl Fn(usize) -> Interval,
+        unknown: &dyn Fn(usize) -> Interval,
     ) -> Vec<Located> {
         let d = problem.dimension;
         let value = |entry: Entry| match entry {
@@ -58,13 +60,13 @@ impl System {
             Entry::Zero => exactly(0.0),
         };
         let shapes: Vec<&Shape> = problem.objects.iter().map(|o| &o.shape).collect();
-        locate(&shapes, (own, poses), (d, unit), points, value)
+        locate(&shapes, (own, poses), (d, unit), points, &value)
     }
 
     /// Ranks of the unknowns in a [choice](super::Choice) of what is held: coordinates of points come after others.
     pub fn later(&self) -> impl Fn(usize) -> u8 + use<> {
-        let coordinates: BTreeSet<usize> = self.coordinates.iter().copied().collect();
-        move |u: usize| coordinates.contains(&u).into()
+        let coordinates = each_once(self.coordinates.iter().copied());
+        move |u: usize| coordinates.binary_search(&u).is_ok().into()
     }
 
     /// The vectors that must not vanish of which all unknowns are in a part, in the numbers that unknowns have there.
@@ -160,12 +162,11 @@ impl System {
                 implied.push(index);
                 continue;
             }
-            let unknowns = products.iter().flat_map(|p| p.entries()).flatten();
-            let unknowns: BTreeSet<usize> = unknowns.collect();
+            let unknowns = each_once(products.iter().flat_map(|p| p.entries()).flatten());
             rows.push(Row {
                 index,
                 products,
-                unknowns: unknowns.into_iter().collect(),
+                unknowns,
             });
         }
         let nonzero = lowered.tail.nonzero.iter().map(|vector| Nonzero {
@@ -187,36 +188,26 @@ impl System {
 
 /// A sum of products in which equal ones are added up, without products that are zero or cancel.
 fn normalised(products: impl Iterator<Item = Term>) -> Vec<Term> {
-    let rank = |entry: Option<usize>| entry.unwrap_or(usize::MAX);
-    // A difference with the lower unknown first, and its sign; `None` where it is zero.
-    let ordered = |form: Form<Option<usize>>| -> Option<(_, i32, (usize, usize))> {
-        match form {
-            Form::One => Some((form, 1, (usize::MAX, usize::MAX))),
-            Form::Difference(a, b) => match rank(a).cmp(&rank(b)) {
-                std::cmp::Ordering::Equal => None,
-                std::cmp::Ordering::Less => Some((form, 1, (rank(a), rank(b)))),
-                std::cmp::Ordering::Greater => {
-                    Some((Form::Difference(b, a), -1, (rank(b), rank(a))))
-                }
-            },
-        }
+    const NONE: usize = usize::MAX;
+    // What stands for the entries of a difference, the lower unknown first, and its sign; `None` where it is zero.
+    let ordered = |form: Form<Option<usize>>| {
+        let Form::Difference(a, b) = form else {
+            return Some(([NONE; 2], 1));
+        };
+        let [a, b] = [a, b].each(|entry| entry.unwrap_or(NONE));
+        let sign = if a < b { 1 } else { -1 };
+        (a != b).then_some(([a.min(b), a.max(b)], sign))
     };
-    let mut sum: BTreeMap<_, (i32, _, _)> = BTreeMap::new();
-    for p in products {
-        let (Some(left), Some(right)) = (ordered(p.left), ordered(p.right)) else {
-            continue;
-        };
-        let factor = p.factor * left.1 * right.1;
-        let (one, other) = if left.2 <= right.2 {
-            (left, right)
-        } else {
-            (right, left)
-        };
-        let entry = sum.entry((one.2, other.2)).or_insert((0, one.0, other.0));
-        entry.0 += factor;
-    }
-    let terms = sum.into_values().filter(|term| term.0 != 0);
+    let sums = Map::sums(products.filter_map(|p| {
+        let ((left, sign), (right, other)) = (ordered(p.left)?, ordered(p.right)?);
+        Some(([left.min(right), left.max(right)], p.factor * sign * other))
+    }));
+    let form = |ends: [usize; 2]| match ends.each(|u| (u != NONE).then_some(u)) {
+        [None, None] => Form::One,
+        [a, b] => Form::Difference(a, b),
+    };
+    let terms = sums.into_iter();
     terms
-        .map(|(factor, left, right)| Term::new(factor, left, right))
+        .map(|([left, right], factor)| Term::new(factor, form(left), form(right)))
         .collect()
 }

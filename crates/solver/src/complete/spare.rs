@@ -74,11 +74,11 @@ impl Equations<'_> {
         }
         let equations = &self.lowered.tail.equations;
         let linearise = |x: &[f64]| {
-            linearised((equations.len(), m), |e, slope| {
+            linearised((equations.len(), m), &|e, slope| {
                 self.row(&equations[e], x, slope)
             })
         };
-        let x = nearest(DVector::from_vec(x), [1e-13, 1.0], linearise);
+        let x = nearest(DVector::from_vec(x), [1e-13, 1.0], &linearise);
         x.data.into()
     }
 }

@@ -2,10 +2,10 @@
 
 use super::system::{Kind, System};
 use crate::interval::Real;
+use crate::map::Map;
 use crate::rational::Rational;
 use num_bigint::BigInt;
 use num_traits::One;
-use std::collections::BTreeMap;
 
 /// A program that reads systems.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -25,7 +25,7 @@ pub enum Export {
 }
 
 /// A polynomial of degree 2: coefficients by the unknowns of each monomial.
-type Polynomial = BTreeMap<Vec<usize>, Real>;
+type Polynomial = Map<Vec<usize>, Real>;
 
 /// Writes the system in the problem's unit of length, with the numbers of the instance. Solvers that search boxes get
 /// unknowns from −`reach` to `reach`.
@@ -138,15 +138,11 @@ fn names(system: &System) -> Vec<String> {
 
 /// Twice the left-hand side less the right one, or half that where all coefficients stay whole.
 fn polynomial(system: &System, equation: usize) -> Polynomial {
-    let mut sums: BTreeMap<Vec<usize>, Rational> = BTreeMap::new();
-    let terms = system.equations[equation].terms.iter();
-    for (monomial, factor) in terms.flat_map(|term| term.multiplied_out()) {
-        *sums.entry(monomial).or_insert_with(Rational::zero) +=
-            Rational::from_integer(BigInt::from(factor));
-    }
-    sums.retain(|_, sum| !sum.is_zero());
     let equation = &system.equations[equation];
-    let mut polynomial: Polynomial = sums.into_iter().map(|(m, c)| (m, c.into())).collect();
+    let terms = equation.terms.iter();
+    let sums = Map::sums(terms.flat_map(|term| term.multiplied_out()));
+    let whole = |(m, c): (Vec<usize>, i32)| (m, Real::whole(c.into()));
+    let mut polynomial: Polynomial = sums.into_iter().map(whole).collect();
     let unit = Rational::from_float(system.unit.powi(equation.power)).expect("a power of two");
     let right = match &equation.right {
         Kind::Parameter([re, _]) => re * &Real::from(unit),

@@ -302,7 +302,7 @@ impl Way for Whole {
     fn objects_of(&self, figure: &Figure) -> Vec<Located> {
         let points = self.points_of(figure);
         let homotopy = self.arcs.homotopy();
-        homotopy.locate(&points, |unknown| figure.enclosure(unknown))
+        homotopy.locate(&points, &|unknown| figure.enclosure(unknown))
     }
 
     fn limit(&self, fold: &Fold, orientations: &[Orientation]) -> Limit {

@@ -94,8 +94,8 @@ impl Asked {
             let index = match indices.get(name) {
                 Some(&index) => index,
                 None => Setting::find(problem, name).map_err(|error| {
-                    let known = problem.parameters.iter().map(|(name, _)| name.as_str());
-                    match nearest(name, known) {
+                    let mut known = problem.parameters.iter().map(|(name, _)| name.as_str());
+                    match nearest(name, &mut known) {
                         Some(near) => SettingError::NearParameter(name.to_owned(), near),
                         None => error,
                     }

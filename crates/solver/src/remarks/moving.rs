@@ -6,6 +6,7 @@
 //! where it is goes back each time.
 
 use crate::blocks::{Floats, System, straight};
+use crate::linalg::{decomposed, shortest};
 use crate::order::InOrder;
 use crate::places::Each as _;
 use crate::problem::{Distance, Problem, list};
@@ -123,9 +124,9 @@ fn off(problem: &Problem, distance: &Distance) -> f64 {
 fn led(floats: &Floats, rows: &[usize], mut at: Vec<f64>) -> Option<(Vec<f64>, f64)> {
     for _ in 0..12 {
         let (jacobian, off) = floats.linearise(rows, &at);
-        let svd = jacobian.svd(true, true);
+        let svd = decomposed(jacobian, [true, true]);
         let zero = ZERO * svd.singular_values.max();
-        let step = svd.solve(&off, zero).ok()?;
+        let step = shortest(&svd, &off, zero)?;
         at.iter_mut().zip(step.iter()).for_each(|(x, s)| *x -= s);
         if at.iter().any(|x| !x.is_finite()) {
             return None;
@@ -150,7 +151,7 @@ fn internal(
     let (jacobian, _) = floats.linearise(rows, at);
     // Rows of zeros, so that all directions come out.
     let tall = jacobian.resize_vertically(width.max(rows.len()), 0.0);
-    let svd = tall.svd(false, true);
+    let svd = decomposed(tall, [false, true]);
     let (values, v) = (&svd.singular_values, svd.v_t.as_ref()?);
     let zero = ZERO * values.max();
     let kept = (0..width).filter(|&k| values[k] < zero);
@@ -207,7 +208,7 @@ fn internal(
         // What of the way before is left.
         Some(before) => DVector::from_iterator(kept.len(), own.iter().map(|own| own.dot(before))),
         None => {
-            let svd = DMatrix::from_columns(&own).svd(false, true);
+            let svd = decomposed(DMatrix::from_columns(&own), [false, true]);
             let most = svd.singular_values.imax();
             if svd.singular_values[most] < 1e-3 {
                 return None;

@@ -8,7 +8,7 @@
 use super::Remark;
 use crate::blocks::Whose;
 use crate::constraint::try_lower;
-use crate::linalg::{Linear, linearised, nearest_zero, scaled};
+use crate::linalg::{Linear, decomposed, linearised, nearest_zero, scaled};
 use crate::problem::Problem;
 use crate::random::Random;
 use crate::system::Homotopy;
@@ -103,7 +103,7 @@ impl<'a> System<'a> {
 
     /// The Jacobian of some equations, rows scaled to length 1, and their scaled values.
     fn linearise(&self, rows: &[usize], x: &[f64]) -> Linear {
-        scaled(linearised((rows.len(), x.len()), |r, slope| {
+        scaled(linearised((rows.len(), x.len()), &|r, slope| {
             self.target.evaluate(rows[r], x, slope)
         }))
     }
@@ -115,7 +115,7 @@ impl<'a> System<'a> {
         let mut random = Random::new(seed + 1);
         let sketch = self.sketch.iter();
         let moved = sketch.map(|x| x + MOVED * random.symmetric());
-        let x = nearest_zero(moved.collect(), 1e-10, |x| self.linearise(&rows, x))?;
+        let x = nearest_zero(moved.collect(), 1e-10, &|x| self.linearise(&rows, x))?;
         self.homotopy.is_proper(&x).then_some(x)
     }
 
@@ -123,7 +123,7 @@ impl<'a> System<'a> {
     /// that cannot be told.
     fn dependent_rows(&self, x: &[f64]) -> Option<Vec<usize>> {
         let all: Vec<usize> = (0..self.vanishes.len()).collect();
-        let svd = self.linearise(&all, x).0.svd(true, false);
+        let svd = decomposed(self.linearise(&all, x).0, [true, false]);
         let values = &svd.singular_values;
         let largest = values.max();
         let zeros: Vec<usize> = (0..values.len())

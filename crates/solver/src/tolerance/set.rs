@@ -105,7 +105,7 @@ pub fn study_all(
                     if stands { sketch.clone() } else { middle(band) }
                 })
             });
-            let drawn = drawn(problem, places, &homotopy.locate(&points, at))?;
+            let drawn = drawn(problem, places, &homotopy.locate(&points, &at))?;
             let own = open(&drawn, control)?;
             // What it becomes with each choice is the figure of the box, as it is that with one of them.
             if !own.is_same(&limited) {

@@ -13,8 +13,9 @@ use super::quadratic::{Entry, Form, Product, Role, Tail};
 use super::subtracted;
 use super::zeros::at_target;
 use crate::interval::{Interval, Real};
+use crate::map::Map;
+use crate::order::each_once;
 use crate::places::Each as _;
-use std::collections::{BTreeMap, BTreeSet};
 
 /// A coordinate, an unknown or the number 0, in order; the number comes first, and stands for all that is zero.
 pub type Name = (u8, usize, usize);
@@ -38,7 +39,7 @@ pub fn entry(name: Name) -> Entry {
 
 /// What is equal at t = 1.
 #[derive(Default)]
-pub struct Equal(BTreeMap<Name, Name>);
+pub struct Equal(Map<Name, Name>);
 
 impl Equal {
     /// What stands for all that is equal to this.
@@ -170,13 +171,8 @@ fn vectors(tail: &Tail, apart: &[[usize; 2]], dimension: usize) -> Vec<Vec<Form>
 }
 
 /// The differences that are zero in no figure: lengths, and what alone is left of a vector that must not vanish, or has a length.
-fn nonzero(
-    tail: &Tail,
-    vectors: &[Vec<Form>],
-    equal: &Equal,
-    rights: &[Real],
-) -> BTreeSet<[Name; 2]> {
-    let mut out = BTreeSet::new();
+fn nonzero(tail: &Tail, vectors: &[Vec<Form>], equal: &Equal, rights: &[Real]) -> Vec<[Name; 2]> {
+    let mut out = Vec::new();
     for (u, unknown) in tail.unknowns.iter().enumerate() {
         if unknown.role == Role::Positive {
             let form = Form::Difference(Entry::Unknown(u), Entry::Zero);
@@ -202,23 +198,21 @@ fn nonzero(
             add(&forms);
         }
     }
-    out
+    each_once(out)
 }
 
 /// A sum of products that is zero without a factor that all have and that is not zero: the factor, and the rest of each.
 fn divided(
     products: &[Product],
     equal: &Equal,
-    nonzero: &BTreeSet<[Name; 2]>,
+    nonzero: &[[Name; 2]],
 ) -> Option<(Form, Vec<Product>)> {
     let left: Vec<Product> = equal.left(products).copied().collect();
     let first = left.first()?;
     let factors = [first.left, first.right].into_iter();
     let mut factors = factors.filter_map(|form| Some((form, equal.ordered(form)?)));
     factors.find_map(|(by, (ends, sign))| {
-        if !nonzero.contains(&ends) {
-            return None;
-        }
+        nonzero.binary_search(&ends).ok()?;
         let rest = left.iter().map(|p| {
             let both = [(p.left, p.right), (p.right, p.left)].into_iter();
             both.filter(|(_, other)| *other != Form::One)

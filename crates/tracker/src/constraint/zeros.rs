@@ -11,9 +11,9 @@
 
 use super::quadratic::{Entry, Equation, Form, Product, Role, Tail};
 use crate::interval::{Interval, Real};
+use crate::map::Map;
 use crate::rational::Rational;
 use num_bigint::BigInt;
-use std::collections::BTreeMap;
 
 /// Larger eliminations are not made: no unknown is known to be zero then.
 const MOST: usize = 200;
@@ -22,7 +22,7 @@ const MOST: usize = 200;
 type Factor = (bool, usize, usize);
 /// None, one or two factors, in order.
 type Monomial = Vec<Factor>;
-type Sum = BTreeMap<Monomial, Rational>;
+type Sum = Map<Monomial, Rational>;
 
 /// What stands for a coordinate or unknown.
 #[derive(Clone)]
@@ -34,7 +34,7 @@ enum Value {
 
 /// What is known of coordinates and unknowns.
 #[derive(Default)]
-struct Known(BTreeMap<Factor, Value>);
+struct Known(Map<Factor, Value>);
 
 impl Known {
     fn value(&self, of: Factor) -> Value {
@@ -71,10 +71,10 @@ pub fn zeros(tail: &Tail, vanishing: &[bool]) -> Vec<bool> {
         goes_on = false;
         let equations = tail.equations.iter().zip(vanishing);
         let rows = equations.filter_map(|(equation, &vanishing)| {
-            let mut row = sum(&equation.products, &known);
             let right = at_target(equation, vanishing).as_rational()?.clone();
-            *row.entry(Monomial::new()).or_default() -= right * Rational::from(BigInt::from(2));
-            row.retain(|_, factor| !factor.is_zero());
+            let right = right * Rational::from(BigInt::from(-2));
+            let mut row = sum(&equation.products, &known);
+            row.add(&Rational::one(), &Sum::sums([(Monomial::new(), right)]));
             Some(row)
         });
         for row in reduced(rows) {
@@ -177,56 +177,42 @@ fn sum(products: &[Product], known: &Known) -> Sum {
         });
         named.collect()
     };
-    let mut out = Sum::new();
+    let mut all = Vec::new();
     for p in products {
         let factor = Rational::from(BigInt::from(p.factor));
         for (a, by) in parts(p.left) {
             for (b, times) in parts(p.right) {
                 let mut monomial: Monomial = [a, b].into_iter().flatten().collect();
                 monomial.sort_unstable();
-                *out.entry(monomial).or_default() += &factor * &by * times;
+                all.push((monomial, &factor * &by * times));
             }
         }
     }
-    out.retain(|_, factor| !factor.is_zero());
-    out
+    Sum::sums(all)
 }
 
 /// The reduced echelon form: in each row the last product has the factor 1 and is in no other row. A product that is a sum of
 /// multiples of the rows is one of the rows then.
 fn reduced(rows: impl Iterator<Item = Sum>) -> Vec<Sum> {
-    let mut basis: BTreeMap<Monomial, Sum> = BTreeMap::new();
-    let subtract = |from: &mut Sum, other: &Sum, times: &Rational| {
-        for (monomial, value) in other {
-            let entry = from.entry(monomial.clone()).or_default();
-            *entry -= times * value;
-            if entry.is_zero() {
-                from.remove(monomial);
-            }
-        }
-    };
+    let mut basis: Map<Monomial, Sum> = Map::default();
     for mut row in rows {
         // No row of the basis has another one's last product: what is taken away brings none in.
-        let known: Vec<Monomial> = row
-            .keys()
-            .filter(|m| basis.contains_key(*m))
-            .cloned()
-            .collect();
-        for monomial in known {
-            let times = row[&monomial].clone();
-            subtract(&mut row, &basis[&monomial], &times);
+        let known = row.iter().filter_map(|(m, x)| Some((-x, basis.get(m)?)));
+        for (by, other) in known.collect::<Vec<_>>() {
+            row.add(&by, other);
         }
-        let Some((last, value)) = row.last_key_value().map(|(m, x)| (m.clone(), x.clone())) else {
+        let Some((last, value)) = row.iter().next_back().map(|(m, x)| (m.clone(), x.clone()))
+        else {
             continue;
         };
         row.values_mut().for_each(|x| *x = &*x / &value);
         for other in basis.values_mut() {
-            if let Some(times) = other.get(&last).cloned() {
-                subtract(other, &row, &times);
+            if let Some(by) = other.get(&last).map(|x| -x) {
+                other.add(&by, &row);
             }
         }
-        assert!(row[&last].is_one());
+        assert!(row.get(&last).is_some_and(Rational::is_one));
         basis.insert(last, row);
     }
-    basis.into_values().collect()
+    basis.into_iter().map(|(_, row)| row).collect()
 }

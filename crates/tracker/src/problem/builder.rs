@@ -73,12 +73,13 @@ struct DraftDistance {
     target: Number,
 }
 
-pub(super) fn number<N>(value: N) -> Number
-where
-    N: TryInto<Decimal>,
-    DecimalError: From<N::Error>,
-{
-    value.try_into().map_err(DecimalError::from)
+/// What is taken for a number: a [`Decimal`], and all that one can be made of.
+pub trait Numeral: TryInto<Decimal, Error: Into<DecimalError>> {}
+
+impl<N: TryInto<Decimal, Error: Into<DecimalError>>> Numeral for N {}
+
+pub(super) fn number<N: Numeral>(value: N) -> Number {
+    value.try_into().map_err(Into::into)
 }
 
 impl Problem {
@@ -265,11 +266,11 @@ impl ProblemBuilder {
     }
 
     /// Adds a point at its place in the sketch, with as many coordinates as dimensions.
-    pub fn point<N>(mut self, name: &str, coordinates: impl IntoIterator<Item = N>) -> Self
-    where
-        N: TryInto<Decimal>,
-        DecimalError: From<N::Error>,
-    {
+    pub fn point<N: Numeral>(
+        mut self,
+        name: &str,
+        coordinates: impl IntoIterator<Item = N>,
+    ) -> Self {
         self.points.push(DraftPoint {
             name: name.to_owned(),
             coordinates: coordinates.into_iter().map(number).collect(),
@@ -278,11 +279,7 @@ impl ProblemBuilder {
     }
 
     /// Adds a distance to meet.
-    pub fn distance<N>(mut self, a: &str, b: &str, length: N) -> Self
-    where
-        N: TryInto<Decimal>,
-        DecimalError: From<N::Error>,
-    {
+    pub fn distance<N: Numeral>(mut self, a: &str, b: &str, length: N) -> Self {
         self.lengths.push(DraftDistance {
             points: [a.to_owned(), b.to_owned()],
             target: number(length),
@@ -292,11 +289,7 @@ impl ProblemBuilder {
 
     /// Adds a distance to meet, given by its square. In the finished problem these come after all
     /// those given as lengths, as they do in files.
-    pub fn squared_distance<N>(mut self, a: &str, b: &str, square: N) -> Self
-    where
-        N: TryInto<Decimal>,
-        DecimalError: From<N::Error>,
-    {
+    pub fn squared_distance<N: Numeral>(mut self, a: &str, b: &str, square: N) -> Self {
         self.squared_lengths.push(DraftDistance {
             points: [a.to_owned(), b.to_owned()],
             target: number(square),
@@ -331,22 +324,14 @@ impl ProblemBuilder {
     }
 
     /// Sets the bend's coefficient c. Left out, it is a part of the mean target length (docs/using/problem-files.md).
-    pub fn bend_coefficient<N>(mut self, c: N) -> Self
-    where
-        N: TryInto<Decimal>,
-        DecimalError: From<N::Error>,
-    {
+    pub fn bend_coefficient<N: Numeral>(mut self, c: N) -> Self {
         self.bend_coefficient = Some(number(c));
         self
     }
 
     /// Sets how far constraints that the sketch meets are led off on the way
     /// ([`HomotopyChoices::detour`]). Left out, it is 0: they hold all along.
-    pub fn detour<N>(mut self, by: N) -> Self
-    where
-        N: TryInto<Decimal>,
-        DecimalError: From<N::Error>,
-    {
+    pub fn detour<N: Numeral>(mut self, by: N) -> Self {
         self.detour = Some(number(by));
         self
     }
@@ -376,7 +361,7 @@ impl ProblemBuilder {
                     place,
                     what: what.to_owned(),
                     name: name.chars().take(MAX_NAME).collect(),
-                    nearest: nearest(name, points.iter().map(|p| p.name.as_str())),
+                    nearest: nearest(name, &mut points.iter().map(|p| p.name.as_str())),
                 })
         };
 

@@ -1,12 +1,9 @@
 //! Objects and constraints of a problem in the making: names to be looked up, numbers to be checked.
 
-use super::builder::{Number, ProblemBuilder, check_name, number};
+use super::builder::{Number, Numeral, ProblemBuilder, check_name, number};
 use super::error::{MAX_NAME, Place};
 use super::formula;
-use super::{
-    AXES, Constraint, Decimal, DecimalError, Item, JointSort, Object, Point, Pose, ProblemError,
-    Shape,
-};
+use super::{AXES, Constraint, Decimal, Item, JointSort, Object, Point, Pose, ProblemError, Shape};
 use crate::constraint::{self, EQUATIONS, KINDS};
 use crate::order::InOrder;
 use crate::statement::nearest;
@@ -71,16 +68,12 @@ impl ProblemBuilder {
     }
 
     /// Adds a line of its own, with a place on it and its direction in the sketch.
-    pub fn free_line<N>(
+    pub fn free_line<N: Numeral>(
         self,
         name: &str,
         point: impl IntoIterator<Item = N>,
         direction: impl IntoIterator<Item = N>,
-    ) -> Self
-    where
-        N: TryInto<Decimal>,
-        DecimalError: From<N::Error>,
-    {
+    ) -> Self {
         let numbers = [numbers(point), numbers(direction)];
         self.object(name, DraftShape::FreeLine(numbers))
     }
@@ -91,35 +84,23 @@ impl ProblemBuilder {
     }
 
     /// Adds a plane of its own, with a place in it and its normal in the sketch.
-    pub fn free_plane<N>(
+    pub fn free_plane<N: Numeral>(
         self,
         name: &str,
         point: impl IntoIterator<Item = N>,
         normal: impl IntoIterator<Item = N>,
-    ) -> Self
-    where
-        N: TryInto<Decimal>,
-        DecimalError: From<N::Error>,
-    {
+    ) -> Self {
         let numbers = [numbers(point), numbers(normal)];
         self.object(name, DraftShape::FreePlane(numbers))
     }
 
     /// Adds a circle in the plane, with its radius in the sketch.
-    pub fn circle<N>(self, name: &str, center: &str, radius: N) -> Self
-    where
-        N: TryInto<Decimal>,
-        DecimalError: From<N::Error>,
-    {
+    pub fn circle<N: Numeral>(self, name: &str, center: &str, radius: N) -> Self {
         self.object(name, DraftShape::Circle(center.to_owned(), number(radius)))
     }
 
     /// Adds a sphere in space, with its radius in the sketch.
-    pub fn sphere<N>(self, name: &str, center: &str, radius: N) -> Self
-    where
-        N: TryInto<Decimal>,
-        DecimalError: From<N::Error>,
-    {
+    pub fn sphere<N: Numeral>(self, name: &str, center: &str, radius: N) -> Self {
         self.object(name, DraftShape::Sphere(center.to_owned(), number(radius)))
     }
 
@@ -143,8 +124,7 @@ impl ProblemBuilder {
     /// ```
     pub fn body<N, P, C>(self, name: &str, points: P) -> Self
     where
-        N: TryInto<Decimal>,
-        DecimalError: From<N::Error>,
+        N: Numeral,
         C: IntoIterator<Item = N>,
         P: IntoIterator<Item = (&'static str, C)>,
     {
@@ -172,11 +152,7 @@ impl ProblemBuilder {
     ///     .finish().unwrap();
     /// assert_eq!(problem.objects.len(), 2);
     /// ```
-    pub fn unknown<N>(self, name: &str, sketch: N) -> Self
-    where
-        N: TryInto<Decimal>,
-        DecimalError: From<N::Error>,
-    {
+    pub fn unknown<N: Numeral>(self, name: &str, sketch: N) -> Self {
         self.object(name, DraftShape::Number(number(sketch)))
     }
 
@@ -210,16 +186,12 @@ impl ProblemBuilder {
     }
 
     /// Adds a constraint with a number.
-    pub fn dimension<S: AsRef<str>, N>(
+    pub fn dimension<S: AsRef<str>, N: Numeral>(
         self,
         kind: &str,
         names: impl IntoIterator<Item = S>,
         value: N,
-    ) -> Self
-    where
-        N: TryInto<Decimal>,
-        DecimalError: From<N::Error>,
-    {
+    ) -> Self {
         self.with_constraint(kind, names, Some(number(value)))
     }
 
@@ -403,7 +375,7 @@ impl ProblemBuilder {
             let order = KINDS.iter().position(|kind| kind.key() == draft.kind);
             let order = order.ok_or_else(|| ProblemError::UnknownKind {
                 kind: draft.kind.chars().take(MAX_NAME).collect(),
-                nearest: nearest(&draft.kind, KINDS.iter().map(|kind| kind.key())),
+                nearest: nearest(&draft.kind, &mut KINDS.iter().map(|kind| kind.key())),
             })?;
             drafts.push((order, draft));
         }
@@ -445,11 +417,7 @@ impl ProblemBuilder {
     }
 }
 
-fn numbers<N>(of: impl IntoIterator<Item = N>) -> Vec<Number>
-where
-    N: TryInto<Decimal>,
-    DecimalError: From<N::Error>,
-{
+fn numbers<N: Numeral>(of: impl IntoIterator<Item = N>) -> Vec<Number> {
     of.into_iter().map(number).collect()
 }
 
@@ -469,7 +437,7 @@ fn unknown<'a>(
         place,
         what: what.to_owned(),
         name: name.chars().take(MAX_NAME).collect(),
-        nearest: nearest(name, known.into_iter()),
+        nearest: nearest(name, &mut known.into_iter()),
     }
 }
 

@@ -154,8 +154,8 @@ impl Algebra for Numbers<'_> {
     fn name(&mut self, name: &str, _rest: &str) -> Result<(Rational, usize), String> {
         let found = self.0.iter().find(|(other, _)| other == name);
         let (_, value) = found.ok_or_else(|| {
-            let names = self.0.iter().map(|(name, _)| name.as_str());
-            let meant = crate::statement::nearest(name, names);
+            let mut names = self.0.iter().map(|(name, _)| name.as_str());
+            let meant = crate::statement::nearest(name, &mut names);
             let meant = meant.map_or(String::new(), |near| format!("; did you mean `{near}`?"));
             format!(": `{name}` is no parameter that stands before{meant}")
         })?;

@@ -969,7 +969,7 @@ impl<'a> Reader<'a> {
                         key: format!("{prefix}{shown}"),
                         nearest: match prefix.is_empty() && is_constraint(name) {
                             true => Some(format!("constraints.{name}")),
-                            false => nearest(name, known.iter().copied()),
+                            false => nearest(name, &mut known.iter().copied()),
                         },
                     },
                 ));

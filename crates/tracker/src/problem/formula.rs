@@ -72,7 +72,7 @@ impl Polynomials<'_> {
             self.atoms.push(atom);
             self.atoms.len() - 1
         });
-        Terms::from([(vec![index], Rational::one())])
+        Terms::sums([(vec![index], Rational::one())])
     }
 
     fn point(&self, name: &str) -> Result<usize, String> {
@@ -87,7 +87,7 @@ impl Polynomials<'_> {
         // In an order that does not change from run to run.
         let mut names: Vec<&str> = names.map(|(name, _)| *name).collect();
         names.sort_unstable();
-        let meant = nearest(name, names.into_iter());
+        let meant = nearest(name, &mut names.into_iter());
         let meant = meant.map_or(String::new(), |near| format!("; did you mean `{near}`?"));
         format!(": there is no {what} `{name}`{meant}")
     }
@@ -100,7 +100,8 @@ impl Polynomials<'_> {
             return Err(format!(" has a degree above {MOST_DEGREE}"));
         }
         let large = |c: &Rational| c.numer().bits().max(c.denom().bits()) > MOST_BITS;
-        match terms.values().any(large) {
+        let is_large = terms.iter().any(|(_, c)| large(c));
+        match is_large {
             true => Err(" has a number that is too large on the way".to_owned()),
             false => Ok(terms),
         }
@@ -109,13 +110,7 @@ impl Polynomials<'_> {
     /// The number that it is, if no unknown is in it.
     fn constant(terms: &Terms) -> Option<Rational> {
         let is_constant = terms.keys().all(Vec::is_empty);
-        is_constant.then(|| {
-            terms
-                .values()
-                .next()
-                .cloned()
-                .unwrap_or_else(Rational::zero)
-        })
+        is_constant.then(|| terms.get(&Vec::new()).cloned().unwrap_or_default())
     }
 }
 
@@ -123,9 +118,7 @@ impl Algebra for Polynomials<'_> {
     type Value = Terms;
 
     fn number(&self, number: Decimal) -> Result<Terms, String> {
-        let number = number.value().clone();
-        let terms = (!number.is_zero()).then(|| (Vec::new(), number));
-        Ok(terms.into_iter().collect())
+        Ok(Terms::sums([(Vec::new(), number.value().clone())]))
     }
 
     fn name(&mut self, name: &str, rest: &str) -> Result<(Terms, usize), String> {
@@ -191,12 +184,8 @@ impl Algebra for Polynomials<'_> {
         }
     }
 
-    fn sum(&self, mut a: Terms, b: Terms) -> Result<Terms, String> {
-        for (term, coefficient) in b {
-            *a.entry(term).or_insert_with(Rational::zero) += coefficient;
-        }
-        a.retain(|_, coefficient| !coefficient.is_zero());
-        Self::checked(a)
+    fn sum(&self, a: Terms, b: Terms) -> Result<Terms, String> {
+        Self::checked(Terms::sums(a.into_iter().chain(b)))
     }
 
     fn negative(&self, a: Terms) -> Terms {
@@ -209,16 +198,14 @@ impl Algebra for Polynomials<'_> {
         if a.len() * b.len() > 100 * MOST_TERMS {
             return Err(too_many_terms());
         }
-        let mut out = Terms::new();
-        for (s, x) in a {
-            for (t, y) in b {
-                let mut term = [&s[..], &t[..]].concat();
-                term.sort_unstable();
-                *out.entry(term).or_insert_with(Rational::zero) += x * y;
-            }
-        }
-        out.retain(|_, coefficient| !coefficient.is_zero());
-        Self::checked(out)
+        let pairs = a
+            .iter()
+            .flat_map(|one| b.iter().map(move |other| (one, other)));
+        Self::checked(Terms::sums(pairs.map(|((s, x), (t, y))| {
+            let mut term = [&s[..], &t[..]].concat();
+            term.sort_unstable();
+            (term, x * y)
+        })))
     }
 
     fn quotient(&mut self, a: Terms, b: Terms) -> Result<Terms, String> {

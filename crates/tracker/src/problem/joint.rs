@@ -3,12 +3,13 @@
 use super::builder::{ProblemBuilder, number};
 use super::draft::DraftShape;
 use super::file::{FileError, Line, Reader};
-use super::{Decimal, DecimalError, JointSort, Object, Point, Pose, ProblemError, Shape};
+use super::{Decimal, DecimalError, JointSort, Numeral, Object, Point, Pose, ProblemError, Shape};
 use crate::constraint::{base_of, vector};
 use crate::interval::vector::{cross, dot, length, minus, out_of};
+use crate::map::Map;
 use crate::places::{Each as _, array};
 use crate::statement::nearest;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::HashMap;
 use toml_edit::{Item, Key, TableLike, Value};
 
 /// How a joint is written.
@@ -22,11 +23,7 @@ impl Pose {
     ///
     /// # Errors
     /// If a number is no finite decimal.
-    pub fn new<N>(at: [N; 3], z: [N; 3], x: [N; 3]) -> Result<Self, DecimalError>
-    where
-        N: TryInto<Decimal>,
-        DecimalError: From<N::Error>,
-    {
+    pub fn new<N: Numeral>(at: [N; 3], z: [N; 3], x: [N; 3]) -> Result<Self, DecimalError> {
         let three = |of: [N; 3]| -> Result<[Decimal; 3], DecimalError> {
             let [x, y, z] = of.map(number);
             Ok([x?, y?, z?])
@@ -108,7 +105,7 @@ fn screw(degrees: f64, travel: f64) -> Motion {
 #[derive(Debug, Clone, Default)]
 pub(super) struct Drawn {
     /// Where bodies are in the sketch, by name.
-    places: BTreeMap<String, Pose>,
+    places: Map<String, Pose>,
     /// What joints measure in the sketch, by name: degrees, of prismatic ones a length.
     values: HashMap<String, Decimal>,
 }
@@ -151,7 +148,7 @@ impl ProblemBuilder {
         objects: &mut [Object],
     ) -> Result<(), ProblemError> {
         let mut known: HashMap<usize, Motion> = HashMap::new();
-        for (name, pose) in &self.drawn.places {
+        for (name, pose) in self.drawn.places.iter() {
             let is_it = |object: &Object| object.name == *name;
             match objects.iter().position(is_it) {
                 Some(body) if matches!(objects[body].shape, Shape::Body { .. }) => {
@@ -159,10 +156,10 @@ impl ProblemBuilder {
                 }
                 _ => {
                     let is_body = |o: &&Object| matches!(o.shape, Shape::Body { .. });
-                    let bodies = objects.iter().filter(is_body).map(|o| o.name.as_str());
+                    let mut bodies = objects.iter().filter(is_body).map(|o| o.name.as_str());
                     return Err(ProblemError::UnknownBody {
                         name: name.clone(),
-                        nearest: nearest(name, bodies),
+                        nearest: nearest(name, &mut bodies),
                     });
                 }
             }

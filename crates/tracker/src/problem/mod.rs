@@ -30,7 +30,7 @@ pub use crate::statement::{
 pub use crate::statement::{counted, either, list};
 #[doc(hidden)]
 pub use bend::default_coefficient as default_bend;
-pub use builder::ProblemBuilder;
+pub use builder::{Numeral, ProblemBuilder};
 pub use check::{Rigidity, rigidity, rigidity_row};
 pub use error::{MAX_NAME, MAX_POINTS, Place, ProblemError};
 pub use file::{FileError, FileFault, MAX_FILE_SIZE};

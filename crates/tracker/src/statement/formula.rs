@@ -1,8 +1,8 @@
 //! Equations of one's own, as plain data: polynomials that are to be zero.
 
 use super::{Item, Problem};
+use crate::map::Map;
 use crate::rational::Rational;
-use std::collections::BTreeMap;
 
 /// An equation: what was written, and the polynomial that it says is zero.
 #[derive(Debug, Clone, PartialEq)]
@@ -17,7 +17,7 @@ pub struct Formula {
 
 /// A polynomial multiplied out: for each product of atoms (indices into [`Formula::atoms`], in order, each as often as it is a
 /// factor) its coefficient, which is not zero.
-pub type Terms = BTreeMap<Vec<usize>, Rational>;
+pub type Terms = Map<Vec<usize>, Rational>;
 
 /// What polynomials are made of. All of them are numbers: lengths and coordinates are counted in the problem's unit.
 #[derive(Debug, Clone, PartialEq)]

@@ -103,12 +103,12 @@ impl Homotopy {
     pub fn locate(
         &self,
         points: &[[Interval; 3]],
-        unknown: impl Fn(usize) -> Interval,
+        unknown: &dyn Fn(usize) -> Interval,
     ) -> Vec<Located> {
-        let value = |entry: Entry| self.entry(entry).map_or(point(0.0), &unknown);
+        let value = |entry: Entry| self.entry(entry).map_or(point(0.0), unknown);
         let told = (&self.tail.objects[..], &self.tail.poses[..]);
         let shapes: Vec<&Shape> = self.shapes.iter().collect();
-        locate(&shapes, told, (self.dimension, self.unit), points, value)
+        locate(&shapes, told, (self.dimension, self.unit), points, &value)
     }
 }
 
@@ -119,7 +119,7 @@ pub fn locate(
     (own, poses): (&[Vec<Entry>], &[Posed]),
     (dimension, unit): (usize, f64),
     points: &[[Interval; 3]],
-    value: impl Fn(Entry) -> Interval,
+    value: &dyn Fn(Entry) -> Interval,
 ) -> Vec<Located> {
     let unit = point(unit);
     let three = |entries: &[Entry]| -> [Interval; 3] {
@@ -127,7 +127,7 @@ pub fn locate(
     };
     let poses: HashMap<usize, [[Interval; 3]; 4]> = poses
         .iter()
-        .map(|posed| (posed.body, pose_of(posed, unit, &value)))
+        .map(|posed| (posed.body, pose_of(posed, unit, value)))
         .collect();
     let objects = shapes.iter().zip(own).enumerate();
     objects
@@ -172,7 +172,7 @@ pub fn locate(
 }
 
 /// The origin of a body with joints and its axes. `value`: of an unknown.
-fn pose_of(posed: &Posed, unit: Interval, value: impl Fn(Entry) -> Interval) -> [[Interval; 3]; 4] {
+fn pose_of(posed: &Posed, unit: Interval, value: &dyn Fn(Entry) -> Interval) -> [[Interval; 3]; 4] {
     let form = |form: &Form| match *form {
         Form::One => point(1.0),
         Form::Difference(a, b) => value(a) - value(b),

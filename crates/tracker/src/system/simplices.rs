@@ -5,13 +5,9 @@ use crate::interval::{Interval, point};
 use crate::order::each_once;
 
 /// Each point with as many of the points joined to it as there are dimensions, in order, each set once.
-pub fn simplices(
-    dimension: usize,
-    points: usize,
-    pairs: impl IntoIterator<Item = [usize; 2]>,
-) -> Vec<Vec<usize>> {
+pub fn simplices(dimension: usize, points: usize, pairs: &[[usize; 2]]) -> Vec<Vec<usize>> {
     let mut joined = vec![Vec::new(); points];
-    for [a, b] in pairs {
+    for &[a, b] in pairs {
         joined[a].push(b);
         joined[b].push(a);
     }
@@ -58,11 +54,11 @@ mod tests {
     #[test]
     fn each_set_of_joined_points_turns_up_once() {
         let triangle = [[0, 1], [1, 2], [2, 0]];
-        assert_eq!(simplices(2, 3, triangle), [vec![0, 1, 2]]);
+        assert_eq!(simplices(2, 3, &triangle), [vec![0, 1, 2]]);
         let path = [[2, 1], [1, 0], [3, 2]];
-        assert_eq!(simplices(2, 4, path), [vec![0, 1, 2], vec![1, 2, 3]]);
+        assert_eq!(simplices(2, 4, &path), [vec![0, 1, 2], vec![1, 2, 3]]);
         let star = [[0, 1], [0, 2], [0, 3], [0, 4]];
-        assert_eq!(simplices(3, 5, star).len(), 4);
+        assert_eq!(simplices(3, 5, &star).len(), 4);
     }
 
     #[test]

@@ -16,16 +16,16 @@
 use super::{Homotopy, Term};
 use crate::equations::Form;
 use crate::interval::{Interval, ZERO, enclose_rational};
+use crate::map::Map;
 use crate::places::Each as _;
 use crate::rational::Rational;
 use num_bigint::BigInt;
-use std::collections::BTreeMap;
 
 /// `Σ q_ij z_i z_j + Σ b_i z_i + c`, which is 0. The z are unknowns of the homotopy, and behind these symbols for numbers ([`Told`]).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Quadratic {
-    products: BTreeMap<[usize; 2], Rational>,
-    linear: BTreeMap<usize, Rational>,
+    products: Map<[usize; 2], Rational>,
+    linear: Map<usize, Rational>,
     constant: Rational,
 }
 
@@ -69,9 +69,9 @@ pub struct Contradiction;
 /// of equations that are not below m stand for the number 0, and get no symbol.)
 #[derive(Debug, Clone, Default)]
 pub struct Told {
-    values: BTreeMap<usize, Rational>,
-    sides: BTreeMap<usize, Quadratic>,
-    roots: BTreeMap<usize, Interval>,
+    values: Map<usize, Rational>,
+    sides: Map<usize, Quadratic>,
+    roots: Map<usize, Interval>,
 }
 
 /// A block with its unknowns, and ranges for all entries.
@@ -89,8 +89,8 @@ pub struct View<'a> {
 impl Quadratic {
     fn constant(c: Rational) -> Self {
         Quadratic {
-            products: BTreeMap::new(),
-            linear: BTreeMap::new(),
+            products: Map::default(),
+            linear: Map::default(),
             constant: c,
         }
     }
@@ -107,34 +107,24 @@ impl Quadratic {
 
     /// Adds `by` times another one.
     fn add(&mut self, by: &Rational, other: &Self) {
-        for (&key, q) in &other.products {
-            *self.products.entry(key).or_insert_with(Rational::zero) += by * q;
-        }
-        for (&i, b) in &other.linear {
-            *self.linear.entry(i).or_insert_with(Rational::zero) += by * b;
-        }
+        self.products.add(by, &other.products);
+        self.linear.add(by, &other.linear);
         self.constant += by * &other.constant;
-        self.products.retain(|_, q| !q.is_zero());
-        self.linear.retain(|_, b| !b.is_zero());
     }
 
     /// The product of two without products.
     fn times(&self, other: &Self) -> Self {
         debug_assert!(self.is_linear() && other.is_linear());
+        let with = |(&i, b): (&usize, &Rational)| {
+            let terms = other.linear.iter();
+            terms
+                .map(|(&j, d)| ([i.min(j), i.max(j)], b * d))
+                .collect::<Vec<_>>()
+        };
         let mut out = Self::constant(&self.constant * &other.constant);
-        for (&i, b) in &self.linear {
-            for (&j, d) in &other.linear {
-                let key = [i.min(j), i.max(j)];
-                *out.products.entry(key).or_insert_with(Rational::zero) += b * d;
-            }
-        }
-        for (one, by) in [(self, &other.constant), (other, &self.constant)] {
-            for (&i, b) in &one.linear {
-                *out.linear.entry(i).or_insert_with(Rational::zero) += b * by;
-            }
-        }
-        out.products.retain(|_, q| !q.is_zero());
-        out.linear.retain(|_, b| !b.is_zero());
+        out.products = Map::sums(self.linear.iter().flat_map(with));
+        out.linear.add(&other.constant, &self.linear);
+        out.linear.add(&self.constant, &other.linear);
         out
     }
 
@@ -476,14 +466,13 @@ impl Told {
                 .copied()
                 .unwrap_or(Interval::ENTIRE),
         };
-        let mut linear: BTreeMap<usize, Interval> = BTreeMap::new();
+        let mut linear: Map<usize, Interval> = Map::default();
         let mut add = |i: usize, by: Interval| {
-            let sum = linear.entry(i).or_insert(ZERO);
-            *sum += by;
+            *linear.or_insert(i, ZERO) += by;
         };
         let mut terms = Vec::new();
         let mut constant = range(&of.constant);
-        for (&[i, j], q) in &of.products {
+        for (&[i, j], q) in of.products.iter() {
             let q = range(q);
             match (is_own(i), is_own(j)) {
                 (true, true) => terms.push((q, i, Some(j))),
@@ -493,7 +482,7 @@ impl Told {
                 (false, false) => constant += q * range_of(i) * range_of(j),
             }
         }
-        for (&i, b) in &of.linear {
+        for (&i, b) in of.linear.iter() {
             let b = range(b);
             match is_own(i) {
                 true => add(i, b),

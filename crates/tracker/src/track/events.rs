@@ -4,13 +4,14 @@
 //! range of s is split until on every piece either t ≠ 1 is certain or the sign of t' is. In
 //! certified mode the distances are proved; in float mode they are estimates.
 
+use super::full::MAX_ORDER;
 use crate::interval::rounding::{gamma, round_up};
 
 /// t along a piece of path, as a polynomial with error bounds.
 #[derive(Debug, Clone, Copy)]
-pub struct TimeAlong<const N: usize> {
-    /// Coefficients of ẑ_t(s) − 1, the first rounded.
-    coefficients: [f64; N],
+pub struct TimeAlong {
+    /// Coefficients of ẑ_t(s) − 1, the first rounded, and zeros.
+    coefficients: [f64; MAX_ORDER + 1],
     /// How far the path's t may be from the polynomial, rounding included.
     band: f64,
     /// How far the path's dt/ds may be from the polynomial's derivative.
@@ -98,19 +99,19 @@ const MAX_DEPTH: usize = 40;
 /// into pieces without end.
 const MAX_PIECES: usize = 10_000;
 
-impl<const N: usize> TimeAlong<N> {
+impl TimeAlong {
     /// t = Σ z_k sᵏ for |s| ≤ `h`, up to `distance`, and dt/ds up to `slope_distance`.
-    pub fn new(z: [f64; N], h: f64, distance: f64, slope_distance: f64) -> Self {
+    pub fn new(z: &[f64], h: f64, distance: f64, slope_distance: f64) -> Self {
         Self::with_low(z, 0.0, h, distance, slope_distance)
     }
 
     /// t = `low` + Σ z_k sᵏ for |s| ≤ `h`, up to `distance`, and dt/ds up to `slope_distance`.
-    pub fn with_low(z: [f64; N], low: f64, h: f64, distance: f64, slope_distance: f64) -> Self {
+    pub fn with_low(z: &[f64], low: f64, h: f64, distance: f64, slope_distance: f64) -> Self {
         // Near t = 1 the difference is exact (Sterbenz); anywhere its error is relative to itself.
         let from_one = z[0] - 1.0;
         let (mut curvature, mut slope, mut power) = (0.0, 0.0, 1.0);
         let mut size = from_one.abs() + low.abs();
-        for k in 1..N {
+        for k in 1..z.len() {
             slope += k as f64 * z[k].abs() * power;
             if k >= 2 {
                 curvature += (k * (k - 1)) as f64 * z[k].abs() * (power / h);
@@ -122,7 +123,8 @@ impl<const N: usize> TimeAlong<N> {
         // Horner's rule and what the first coefficient is made of: fewer than 40 roundings of terms below
         // `size`.
         let rounding = gamma(40);
-        let mut coefficients = z;
+        let mut coefficients = [0.0; MAX_ORDER + 1];
+        coefficients[..z.len()].copy_from_slice(z);
         coefficients[0] = from_one + low;
         TimeAlong {
             coefficients,
@@ -138,8 +140,8 @@ impl<const N: usize> TimeAlong<N> {
         let c = &self.coefficients;
         let middle = 0.5 * (a + b);
         let half = 0.5 * (b - a) * (1.0 + 4.0 * f64::EPSILON) + 2.0 * f64::EPSILON * middle.abs();
-        let (mut value, mut slope) = (c[N - 1], 0.0);
-        for k in (0..N - 1).rev() {
+        let (mut value, mut slope) = (c[MAX_ORDER], 0.0);
+        for k in (0..MAX_ORDER).rev() {
             slope = slope * middle + value;
             value = value * middle + c[k];
         }
@@ -341,11 +343,11 @@ mod tests {
                 z[1] = slope;
                 // Rounding is relative to what a tube so short can reach.
                 let h = 1e-3 * f64::abs(low);
-                let ((lo, hi), _) = TimeAlong::with_low(z, low, h, 0.0, 0.0).bounds(0.0, 0.0);
+                let ((lo, hi), _) = TimeAlong::with_low(&z, low, h, 0.0, 0.0).bounds(0.0, 0.0);
                 assert!(lo <= low && low <= hi, "{low:e} not in [{lo:e}, {hi:e}]");
                 assert!(lo > 0.0 || hi < 0.0, "[{lo:e}, {hi:e}]");
                 assert!(hi - lo < 1e-12 * low.abs(), "[{lo:e}, {hi:e}]");
-                let ((lo, hi), _) = TimeAlong::new(z, h, 0.0, 0.0).bounds(0.0, 0.0);
+                let ((lo, hi), _) = TimeAlong::new(&z, h, 0.0, 0.0).bounds(0.0, 0.0);
                 assert!(lo <= 0.0 && hi >= 0.0);
             }
         }
@@ -355,7 +357,7 @@ mod tests {
     #[test]
     fn low_words_move_crossings() {
         let (z, low, h) = ([1.0, 1.0, 0.0, 0.0, 0.0, 0.0], 1e-20, 1e-19);
-        let time = TimeAlong::with_low(z, low, h, 1e-24, 1e-6);
+        let time = TimeAlong::with_low(&z, low, h, 1e-24, 1e-6);
         let mut found = Vec::new();
         time.crossings(-h, h, &mut found).unwrap();
         let (a, b) = found[0].between;

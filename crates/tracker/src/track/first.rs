@@ -132,7 +132,7 @@ fn solution(homotopy: &Homotopy, figure: &Figure, arc: f64) -> Solution {
         *x *= unit;
     }
     let unknown = |i: usize| figure.enclosure(i);
-    let objects = homotopy.locate(&points, unknown);
+    let objects = homotopy.locate(&points, &unknown);
     Solution {
         width: relative_width(&points, &objects),
         objects,

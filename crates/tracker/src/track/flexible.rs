@@ -3,7 +3,7 @@
 //! Seen in floats, and said so: nothing of a proof rests on it.
 
 use crate::equations::{left_side, slopes};
-use crate::linalg::{Linear, linearised, nearest};
+use crate::linalg::{Linear, decomposed, linearised, nearest};
 use crate::problem::list;
 use crate::system::{Homotopy, Term};
 use nalgebra::DVector;
@@ -35,7 +35,7 @@ pub fn in_words(homotopy: &Homotopy, z: &[f64], t: f64) -> Option<String> {
     if target.off(&x) >= MET.sqrt() * size * size || !are_positive {
         return None;
     }
-    let decomposed = target.linearise(x.as_slice()).0.svd(false, true);
+    let decomposed = decomposed(target.linearise(x.as_slice()).0, [false, true]);
     let largest = decomposed.singular_values.max();
     let rows = decomposed.v_t?;
     let small = |k: &usize| decomposed.singular_values[*k] < RANK * largest;
@@ -119,7 +119,7 @@ impl Target {
     }
 
     fn linearise(&self, x: &[f64]) -> Linear {
-        linearised((self.m, self.m), |e, slope| {
+        linearised((self.m, self.m), &|e, slope| {
             self.evaluate(e, x, slope) - self.rights[e]
         })
     }
@@ -131,7 +131,7 @@ impl Target {
 
     /// A zero near a point, as far as the method of Levenberg and Marquardt comes.
     fn nearest(&self, x: DVector<f64>, size: f64) -> DVector<f64> {
-        nearest(x, [MET * size * size, size], |x| self.linearise(x))
+        nearest(x, [MET * size * size, size], &|x| self.linearise(x))
     }
 
     /// Whether there is another figure with the same dimensions in this direction, or the opposite one.

@@ -76,9 +76,9 @@ impl Turns {
     }
 
     /// Goes on along a tube, from a parameter to another, and tells what it sees, in order.
-    pub fn follow<const N: usize>(
+    pub fn follow(
         &mut self,
-        time: &TimeAlong<N>,
+        time: &TimeAlong,
         (from, to): (f64, f64),
         mut seen: impl FnMut(Stretch),
     ) {
@@ -87,9 +87,9 @@ impl Turns {
 
     /// Goes on along a tube, from a parameter to another, and tells what it sees, in order, where bounds on dt/ds
     /// are known for the stretch, or for one that holds it: if they have one sign there is nothing to look at.
-    pub fn follow_within<const N: usize>(
+    pub fn follow_within(
         &mut self,
-        time: &TimeAlong<N>,
+        time: &TimeAlong,
         (from, to): (f64, f64),
         (low, high): (f64, f64),
         mut seen: impl FnMut(Stretch),
@@ -116,9 +116,9 @@ impl Turns {
         }
     }
 
-    fn split<const N: usize>(
+    fn split(
         &mut self,
-        time: &TimeAlong<N>,
+        time: &TimeAlong,
         (a, b): (f64, f64),
         depth: usize,
         seen: &mut impl FnMut(Stretch),
@@ -141,9 +141,9 @@ impl Turns {
 mod tests {
     use super::*;
 
-    fn parabola(at: f64, band: f64) -> TimeAlong<6> {
+    fn parabola(at: f64, band: f64) -> TimeAlong {
         // t = (s − at)², so that t falls and then rises.
-        TimeAlong::new([at * at, -2.0 * at, 1.0, 0.0, 0.0, 0.0], 1.0, 0.0, band)
+        TimeAlong::new(&[at * at, -2.0 * at, 1.0, 0.0, 0.0, 0.0], 1.0, 0.0, band)
     }
 
     #[test]
@@ -198,7 +198,7 @@ mod tests {
     fn what_is_not_certain_is_not_claimed() {
         // The slope comes down to 0.01, and the band is wider than that.
         let slope = |band| {
-            let time = TimeAlong::new([0.0, 0.01, 0.0, 1.0 / 3.0, 0.0, 0.0], 1.0, 0.0, band);
+            let time = TimeAlong::new(&[0.0, 0.01, 0.0, 1.0 / 3.0, 0.0, 0.0], 1.0, 0.0, band);
             let mut turns = Turns::default();
             turns.follow(&time, (-1.0, 1.0), |_| {});
             (turns.count(), turns.is_certain())
@@ -209,7 +209,7 @@ mod tests {
     #[test]
     fn no_fold_is_no_fold() {
         let mut turns = Turns::default();
-        let time = TimeAlong::new([0.0, 1.0, 0.1, 0.0, 0.0, 0.0], 1.0, 0.0, 1e-6);
+        let time = TimeAlong::new(&[0.0, 1.0, 0.1, 0.0, 0.0, 0.0], 1.0, 0.0, 1e-6);
         turns.follow(&time, (-1.0, 1.0), |seen| {
             assert!(matches!(seen, Stretch::Same(_)))
         });

@@ -403,7 +403,7 @@ impl Figures {
         });
         let points: Vec<[Interval; 3]> = points.collect();
         let (problem, told) = (&self.cut.problem, &self.cut.told);
-        let objects = self.cut.system.locate(problem, told, &points, 1.0, at);
+        let objects = self.cut.system.locate(problem, told, &points, 1.0, &at);
         (points, objects)
     }
 }

@@ -220,8 +220,8 @@ pub(super) fn senses(cut: &Cut) -> Option<Vec<Sense>> {
         .map(|p| *first.entry(at(p)).or_insert(p))
         .collect();
     let pairs = problem.distances.iter().map(|d| d.points.each(|p| one[p]));
-    let pairs = pairs.filter(|[a, b]| a != b);
-    for set in simplices(problem.dimension, problem.points.len(), pairs) {
+    let pairs: Vec<[usize; 2]> = pairs.filter(|[a, b]| a != b).collect();
+    for set in simplices(problem.dimension, problem.points.len(), &pairs) {
         let names: Vec<&str> = set.iter().map(|&p| &*problem.points[p].name).collect();
         let quantity = match set[..] {
             [a, b, c] => Quantity::Turn(Arrow::Between(a, b), Arrow::Between(a, c)),

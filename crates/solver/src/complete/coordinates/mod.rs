@@ -705,7 +705,7 @@ pub(super) fn solutions(homotopy: &Homotopy, found: &[FigureBox]) -> Vec<Solutio
     let figures = found.iter().enumerate();
     let figures = figures.map(|(class, figure)| {
         let points = figure.points(homotopy);
-        let objects = homotopy.locate(&points, |i| figure.figure.enclosure(i));
+        let objects = homotopy.locate(&points, &|i| figure.figure.enclosure(i));
         Solution::located(points, objects, class)
     });
     figures.collect()

@@ -6,7 +6,7 @@ use crate::complete::krawczyk::alone;
 use crate::elimination::invert;
 use crate::interval::rounding::{largest, round_up};
 use crate::interval::{Interval, ZERO, around, point};
-use crate::linalg::nearest_zero;
+use crate::linalg::{decomposed, nearest_zero};
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 use std::cmp::Ordering;
@@ -272,13 +272,13 @@ impl Square<'_> {
             let jacobian = DMatrix::from_row_slice(n, n, &self.jacobian(&at));
             (jacobian, DVector::from_iterator(n, values))
         };
-        let to_zero = |from| nearest_zero(from, 1e-7, linearise);
+        let to_zero = |from| nearest_zero(from, 1e-7, &linearise);
         let middle: Vec<f64> = self.own.iter().map(|&u| x[u].mid()).collect();
         if !middle.iter().all(|x| x.abs() < 1e15) {
             return None;
         }
         let zero = to_zero(middle)?;
-        let svd = linearise(&zero).0.svd(false, true);
+        let svd = decomposed(linearise(&zero).0, [false, true]);
         let v = svd.v_t?;
         let greatest = svd.singular_values.max();
         let kernel = (0..n).filter(|&k| svd.singular_values[k] < 1e-7 * greatest);

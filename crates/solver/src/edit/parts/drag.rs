@@ -225,7 +225,7 @@ impl Parts {
             }
             there
         };
-        let exact = floats.zero(put(&at, 1.0), |x| {
+        let exact = floats.zero(put(&at, 1.0), &|x| {
             let (jacobian, off) = floats.linearise(&rows, x);
             let (m, more) = (rows.len(), wanted.len());
             let (mut jacobian, mut off) = (

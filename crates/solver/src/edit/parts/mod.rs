@@ -453,7 +453,7 @@ impl Way for Parts {
             &self.cut.told,
             &points,
             self.cut.unit,
-            at,
+            &at,
         )
     }
 

@@ -5,20 +5,6 @@ use crate::order::each_once;
 use crate::places::Each as _;
 use crate::problem::{Item, Problem, Shape};
 use crate::system::{orientation, simplices};
-use std::collections::BTreeSet;
-
-/// Triples of points, in order, each once.
-#[derive(Default)]
-struct Triples(BTreeSet<Vec<usize>>);
-
-impl Triples {
-    fn put(&mut self, points: Vec<usize>) {
-        let points = each_once(points);
-        if points.len() == 3 {
-            self.0.insert(points);
-        }
-    }
-}
 
 /// Points of which the orientation tells a sense that constraints leave open. In the plane: both legs of an angle, the ends
 /// of a line and the centre of what touches it. In space, the chirality of points: each with three joined to it.
@@ -26,7 +12,7 @@ pub(in crate::edit) fn senses(problem: &Problem) -> Vec<Vec<usize>> {
     if problem.dimension == 3 {
         return chiralities(problem);
     }
-    let mut out = Triples::default();
+    let mut out = Vec::new();
     let points_of = |item: &Item| match *item {
         Item::Point(p) => vec![p],
         Item::Object(o) => match problem.objects[o].shape {
@@ -56,17 +42,15 @@ pub(in crate::edit) fn senses(problem: &Problem) -> Vec<Vec<usize>> {
         };
         for points in parts {
             match points[..] {
-                [a, b, c] => out.put(vec![a, b, c]),
+                [a, b, c] => out.push([a, b, c]),
                 // A point of one line with the other line.
-                [a, b, c, d] => {
-                    out.put(vec![a, b, c]);
-                    out.put(vec![a, b, d]);
-                }
+                [a, b, c, d] => out.extend([[a, b, c], [a, b, d]]),
                 _ => {}
             }
         }
     }
-    out.0.into_iter().collect()
+    let triples = out.into_iter().map(each_once);
+    each_once(triples.filter(|points| points.len() == 3))
 }
 
 /// The points of each of two equal angles: the three of an angle at a point, or the ends of two lines. An angle with a
@@ -96,13 +80,13 @@ fn chiralities(problem: &Problem) -> Vec<Vec<usize>> {
     let points = problem.points.iter();
     let sketch: Vec<_> = points.map(|p| p.sketch.each_ref().each(enclose)).collect();
     let mut found = vec![None; problem.points.len()];
-    for pair in pairs(problem).collect::<BTreeSet<_>>() {
+    for pair in each_once(pairs(problem)) {
         for p in pair {
             found[p].get_or_insert_with(Vec::new).push(pair);
         }
     }
     let first = |pairs: Vec<[usize; 2]>| {
-        let mut all = simplices(3, problem.points.len(), pairs).into_iter();
+        let mut all = simplices(3, problem.points.len(), &pairs).into_iter();
         all.find(|set| orientation(&sketch, set) != 0)
     };
     each_once(found.into_iter().flatten().filter_map(first))
@@ -115,13 +99,10 @@ fn pairs(problem: &Problem) -> impl Iterator<Item = [usize; 2]> + '_ {
 
 /// The senses, and each point with two (in space: three) joined to it by distances.
 pub(super) fn followed(problem: &Problem) -> Vec<Vec<usize>> {
-    let mut out: BTreeSet<Vec<usize>> = senses(problem).into_iter().collect();
-    out.extend(simplices(
-        problem.dimension,
-        problem.points.len(),
-        pairs(problem),
-    ));
-    out.into_iter().collect()
+    let mut out = senses(problem);
+    let pairs: Vec<[usize; 2]> = pairs(problem).collect();
+    out.extend(simplices(problem.dimension, problem.points.len(), &pairs));
+    each_once(out)
 }
 
 #[cfg(test)]

@@ -64,7 +64,7 @@ impl Kind for Equations {
 fn sum_of(terms: &Terms, atoms: &[Number]) -> (Sum, Rational) {
     let mut constant = Rational::zero();
     let mut sum = Sum::new();
-    for (term, coefficient) in terms {
+    for (term, coefficient) in terms.iter() {
         match term.is_empty() {
             true => constant = coefficient.clone(),
             false => {

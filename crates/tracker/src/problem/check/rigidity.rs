@@ -9,7 +9,7 @@
 
 use crate::elimination::Echelon;
 use crate::equations::Ring;
-use crate::order::InOrder;
+use crate::order::{InOrder, each_once};
 use crate::residues::{Residue, Residues};
 
 /// What the graph of the distances fixes and what not.
@@ -160,12 +160,12 @@ impl<'a> Matrix<'a> {
 /// next, which are then joined with each other as the elimination joins them. Keeps the rows
 /// short.
 fn elimination_order(points: usize, edges: &[[usize; 2]]) -> Vec<usize> {
-    use std::collections::BTreeSet;
-    let mut neighbours = vec![BTreeSet::new(); points];
+    let mut neighbours = vec![Vec::new(); points];
     for &[a, b] in edges {
-        neighbours[a].insert(b);
-        neighbours[b].insert(a);
+        neighbours[a].push(b);
+        neighbours[b].push(a);
     }
+    let mut neighbours: Vec<Vec<usize>> = neighbours.into_iter().map(each_once).collect();
     let mut place = vec![usize::MAX; points];
     for turn in 0..points {
         let Some(next) = (0..points)
@@ -177,8 +177,9 @@ fn elimination_order(points: usize, edges: &[[usize; 2]]) -> Vec<usize> {
         place[next] = turn;
         let around = std::mem::take(&mut neighbours[next]);
         for &a in &around {
-            neighbours[a].remove(&next);
-            neighbours[a].extend(around.iter().copied().filter(|&b| b != a));
+            let all = std::mem::take(&mut neighbours[a]).into_iter();
+            let all = all.chain(around.iter().copied());
+            neighbours[a] = each_once(all.filter(|&b| b != a && b != next));
         }
     }
     place

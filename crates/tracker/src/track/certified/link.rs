@@ -236,24 +236,24 @@ impl<const N: usize, Y: Frame> Tube<N, Y> {
     }
 
     /// t along the tube.
-    pub fn time(&self) -> TimeAlong<N> {
+    pub fn time(&self) -> TimeAlong {
         self.time_if(&self.proof)
     }
 
     /// t along the tube if `proof` were what is proved.
-    pub fn time_if(&self, proof: &Proof) -> TimeAlong<N> {
+    pub fn time_if(&self, proof: &Proof) -> TimeAlong {
         self.entry_if(proof, self.weights.len() - 2)
     }
 
     /// An unknown along the tube, in the place of t.
-    pub fn entry_along(&self, unknown: usize) -> TimeAlong<N> {
+    pub fn entry_along(&self, unknown: usize) -> TimeAlong {
         self.entry_if(&self.proof, unknown)
     }
 
-    fn entry_if(&self, proof: &Proof, i: usize) -> TimeAlong<N> {
+    fn entry_if(&self, proof: &Proof, i: usize) -> TimeAlong {
         // One rounding each, within what `TimeAlong` adds for its own.
         TimeAlong::with_low(
-            array(|k| self.local.z[k][i]),
+            &array::<_, N>(|k| self.local.z[k][i]),
             self.local.low[i],
             proof.h,
             round_up(proof.distance * self.weights[i], 1),

@@ -42,8 +42,8 @@ impl Orientations {
     /// Of each point and as many of the points joined to it as there are dimensions.
     pub fn new(homotopy: &Homotopy, spare: &Vector) -> Self {
         let d = homotopy.dimension;
-        let pairs = homotopy.edges.iter().map(|edge| edge.points);
-        let mut all = simplices(d, homotopy.points, pairs);
+        let pairs: Vec<[usize; 2]> = homotopy.edges.iter().map(|edge| edge.points).collect();
+        let mut all = simplices(d, homotopy.points, &pairs);
         all.extend(homotopy.followed.iter().cloned());
         for points in &mut all {
             points.sort_unstable();

@@ -307,7 +307,7 @@ impl FigureBox {
 
     /// Where the problem's objects are, given all points in the problem's units.
     pub(super) fn objects(&self, homotopy: &Homotopy, points: &[[Interval; 3]]) -> Vec<Located> {
-        homotopy.locate(points, |i| self.entry(i))
+        homotopy.locate(points, &|i| self.entry(i))
     }
 }
 

@@ -424,7 +424,7 @@ impl Trace {
             at,
             t: z[self.width - 1],
             points,
-            objects: homotopy.locate(&places, |i| point(z[i] / self.unit)),
+            objects: homotopy.locate(&places, &|i| point(z[i] / self.unit)),
             within: self.within_at(at)?,
         })
     }

@@ -10,7 +10,7 @@ pub const ORDER: usize = 5;
 /// The largest power of s in F(ẑ(s)) at that degree.
 pub const DEGREE: usize = MAX_DEGREE * ORDER;
 /// The largest degree of Taylor polynomials anywhere.
-pub(super) const MAX_ORDER: usize = 8;
+pub(in crate::track) const MAX_ORDER: usize = 8;
 /// Room for the powers of t(s).
 const POWERS: usize = MAX_DEGREE * MAX_ORDER + 1;
 

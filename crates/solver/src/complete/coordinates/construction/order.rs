@@ -8,8 +8,8 @@
 use super::super::newton::{KNOWN, Square};
 use super::super::system::{Form, Row};
 use crate::complete::model::Number;
+use crate::map::Map;
 use crate::order::each_once;
-use std::collections::BTreeMap;
 
 /// Unknowns that one step finds, at most.
 const MOST_TOGETHER: u32 = 5;
@@ -82,7 +82,7 @@ pub struct Order {
 }
 
 /// The products of two unknowns of a set, by their places in the block, with their factors.
-type Quadratic = BTreeMap<(usize, usize), f64>;
+type Quadratic = Map<(usize, usize), f64>;
 
 /// What equations tell of a set of unknowns.
 struct Usable {
@@ -298,7 +298,7 @@ impl Finder<'_> {
 
     /// The products of two unknowns of a set in a row; `None` if a factor of one is not exact.
     fn quadratic(&self, row: usize, set: u64) -> Option<Quadratic> {
-        let mut out = Quadratic::new();
+        let mut all = Vec::new();
         let own = |form: Form| -> Vec<(usize, f64)> {
             let entries = form.entries();
             let entries = entries.map(|(e, sign)| (self.square.place[e], sign.into()));
@@ -315,12 +315,11 @@ impl Finder<'_> {
             is_exact.then_some(())?;
             for &(i, f) in &left {
                 for &(j, g) in &right {
-                    *out.entry((i.min(j), i.max(j))).or_default() += p.factor.mid() * f * g;
+                    all.push(((i.min(j), i.max(j)), p.factor.mid() * f * g));
                 }
             }
         }
-        out.retain(|_, q| *q != 0.0);
-        Some(out)
+        Some(Map::sums(all))
     }
 
     /// The rows that tell unknowns of a set: those that are linear, and those that are so with one of them taken off.
@@ -339,7 +338,7 @@ impl Finder<'_> {
                 if group.len() != quadratic.len() {
                     return None;
                 }
-                let mut pairs = group.iter().zip(&quadratic);
+                let mut pairs = group.iter().zip(quadratic.iter());
                 let (a, b) = pairs.clone().next()?;
                 let ratio = b.1 / a.1;
                 // Both factors have few digits, so that this is no matter of roundings.

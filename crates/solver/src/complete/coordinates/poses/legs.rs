@@ -18,6 +18,7 @@ use super::part::Part;
 use crate::complete::model::{Model, Number, Range, weighted};
 use crate::interval::rounding::{UNDERFLOW, largest, round_up};
 use crate::interval::{Interval, point};
+use crate::linalg::weakest;
 use crate::places::{Each as _, array};
 
 /// A leg beside the first one.
@@ -281,9 +282,7 @@ impl Legs {
                 }
             }
         }
-        let eigen = gram.symmetric_eigen();
-        let least = eigen.eigenvectors.column(eigen.eigenvalues.imin());
-        look.untold = Some(least.iamax());
+        look.untold = Some(weakest(gram));
     }
 }
 

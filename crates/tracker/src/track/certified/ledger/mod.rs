@@ -313,7 +313,7 @@ impl Ledger {
     fn place<const N: usize, Y: Frame>(
         &mut self,
         tube: &Tube<N, Y>,
-        time: &TimeAlong<N>,
+        time: &TimeAlong,
         (from, to): (f64, f64),
         slopes: (f64, f64),
         known: usize,
@@ -350,12 +350,7 @@ impl Ledger {
     }
 
     /// Takes the values of t between two parameters, `values` bounding t − 1 there.
-    fn widen_t_range<const N: usize>(
-        &mut self,
-        time: &TimeAlong<N>,
-        (from, to): (f64, f64),
-        values: (f64, f64),
-    ) {
+    fn widen_t_range(&mut self, time: &TimeAlong, (from, to): (f64, f64), values: (f64, f64)) {
         let shift = |(lo, hi): (f64, f64)| ((lo + 1.0).next_down(), (hi + 1.0).next_up());
         let (lo, hi) = shift(values);
         if lo >= self.t_range.0 && hi <= self.t_range.1 {

@@ -143,7 +143,7 @@ fn lists_of_crossings_are_true_or_undecided() {
         let distance = 10f64.powf(random.between(-14.0, -4.0));
         let slope_distance = 10f64.powf(random.between(-3.0, 1.0)) * distance / h;
         let mut crossings = Vec::new();
-        if TimeAlong::new(z, h, distance, slope_distance)
+        if TimeAlong::new(&z, h, distance, slope_distance)
             .crossings(from, to, &mut crossings)
             .is_err()
         {

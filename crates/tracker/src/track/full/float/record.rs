@@ -161,7 +161,7 @@ impl<Y: Preconditioner> Record<Y> {
             .collect();
         let mut solutions = observed_solutions(figures, SAME_LENGTH);
         for (solution, x) in solutions.iter_mut().zip(&self.found) {
-            solution.objects = homotopy.locate(&solution.points, |i| point(x[i]));
+            solution.objects = homotopy.locate(&solution.points, &|i| point(x[i]));
             let auxiliary = homotopy.auxiliary_unknowns();
             solution.auxiliary = auxiliary.map(|i| point(x[i])).collect();
         }

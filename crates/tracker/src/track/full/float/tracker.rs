@@ -231,7 +231,7 @@ impl Events {
         for (local, from, to) in [(now, 0.0, half), (next, back, 0.0)] {
             let z: [f64; ORDER + 1] = array(|k| local.z[k][equations.m]);
             let reach = 2.0 * (to - from);
-            let time = TimeAlong::new(z, reach, error, 12.0 * error / step);
+            let time = TimeAlong::new(&z, reach, error, 12.0 * error / step);
             time.crossings(from, to, &mut self.crossings)
                 .map_err(|_| UNDECIDED)?;
             for k in 0..self.crossings.len() {

@@ -4,7 +4,7 @@
 //! slot each of the four equations has one product, or zero times the number 1. An equation's sum is then
 //! a lane's, whatever forms its products are of.
 
-use super::super::local::MAX_ORDER;
+use super::super::MAX_ORDER;
 use super::Tail;
 use crate::linalg::{LANE, Vector};
 use crate::places::{Each as _, array};

@@ -254,8 +254,8 @@ pub fn check_path(view: &View, random: &mut Random, ratios: &mut Ratios) -> Opti
 }
 
 /// t − 1 and t' against what is said of them around a parameter.
-pub fn check_time<const N: usize>(
-    time: &crate::track::events::TimeAlong<N>,
+pub fn check_time(
+    time: &crate::track::events::TimeAlong,
     (s, h): (f64, f64),
     (t, rate): (&Big, &Big),
     random: &mut Random,
