@@ -152,7 +152,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
         }
     }
     let asked = Asked::new(&problem, &named).map_err(|e| in_file(&e))?;
-    let followed = match arguments.set.is_empty() {
+    let mut followed = match arguments.set.is_empty() {
         true => Followed::default(),
         false => loaded.followed(&problem, &asked.given),
     };
@@ -233,6 +233,9 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
         edited.switched_on.extend(astray);
     }
     loaded.add_left_out(&mut edited.account, Some(&edited.points));
+    if edited.ending != Ending::Reached {
+        followed.note_way();
+    }
     let moved = session.moved();
 
     let (is_written, verdict) = commit(

@@ -92,13 +92,16 @@ fn answer(session: &mut Session, loaded: &Loaded, line: &[u8]) -> Value {
         },
         Err(reason) => json!({"status": "error", "reason": reason}),
         Ok((settings, _)) if settings.is_empty() => figure_to_value(session),
-        Ok((settings, followed)) => {
+        Ok((settings, mut followed)) => {
             let mut control = Control::default();
             let mut edited = match request.probe {
                 true => session.probe(&settings, &mut control),
                 false => session.edit_with(&settings, &mut control),
             };
             loaded.add_left_out(&mut edited.account, Some(&edited.points));
+            if edited.ending != Ending::Reached {
+                followed.note_way();
+            }
             let mut value = edit_to_value(session.problem(), &edited, session.moved());
             followed_to_value(session.problem(), &followed, &mut value);
             value["committed"] = json!(!request.probe && edited.ending == Ending::Reached);

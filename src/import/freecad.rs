@@ -701,7 +701,21 @@ pub fn followed(imported: &Imported, places: &Places, now: &Problem, set: &[Sett
             value,
             index.and_then(|index| Some((index, sense(index)?.1))),
         ) {
-            (None, _) => continue,
+            (None, Some((index, sense))) => {
+                // Set by hand before, perhaps.
+                let here = super::value(now, index);
+                let by_it = evaluation.number(source);
+                let by_it = by_it
+                    .ok()
+                    .and_then(|value| decimal(sense.in_problem(value.value)));
+                if let Some(by_it) = by_it.filter(|by_it| !is_near(by_it.to_f64(), here)) {
+                    followed.warnings.push(format!(
+                        "{name} is {here} here, and {by_it} by its expression `{expression}`: what is computed from it takes that"
+                    ));
+                }
+                continue;
+            }
+            (None, None) => continue,
             (Some(Ok(value)), Some((index, sense))) => {
                 if let Some(value) = decimal(sense.in_problem(value.value)) {
                     let expression = expression.to_owned();
@@ -728,7 +742,19 @@ pub fn followed(imported: &Imported, places: &Places, now: &Problem, set: &[Sett
             "{name} has the expression `{expression}` in the file, which is not followed: {why}; it stays{stays} here, and is set anew when the file is recomputed there"
         ));
     }
+    let elsewhere = evaluation.elsewhere();
+    if !elsewhere.is_empty() {
+        followed.warnings.push(format!(
+            "{} follows too, and is not led here: it is set anew when the file is recomputed there",
+            elsewhere.join(", ")
+        ));
+    }
     followed
+}
+
+/// Whether two numbers differ by no more than roundings.
+fn is_near(a: f64, b: f64) -> bool {
+    (a - b).abs() <= 1e-9 * a.abs().max(b.abs()).max(1e-3)
 }
 
 pub fn read(bytes: &[u8], index: usize) -> Result<Imported, String> {

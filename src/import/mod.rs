@@ -270,6 +270,17 @@ impl Followed {
         set.map(|follower| (follower.index, follower.value.clone()))
     }
 
+    /// Adds what is to be said of a figure that was not reached: the way there is not the expressions'.
+    pub fn note_way(&mut self) {
+        if !self.set.is_empty() {
+            self.warnings.push(
+                "on the way all numbers that are set or follow go in straight lines to what they are to be: where that ends is no \
+                 limit of the file's, in which numbers go by their expressions"
+                    .to_owned(),
+            );
+        }
+    }
+
     /// Why dimensions cannot be set, with what follows if anything does.
     pub fn in_error(&self, error: &dyn std::fmt::Display) -> String {
         let followers = self.set.iter();

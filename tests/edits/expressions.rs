@@ -134,7 +134,7 @@ fn the_file_has_what_followed() {
     );
     let expressions = [
         ("Constraints.high", "-Constraints.wide / 2"),
-        ("Constraints.long", "Constraints.wide > 50 ? 60 mm : 26 mm"),
+        ("Constraints.long", "max(26 mm; Constraints.wide)"),
         (
             "Constraints.turn",
             "30 deg + (Constraints.wide - 20 mm) / 1 mm * 1 deg",
@@ -428,4 +428,63 @@ fn verbs_that_lead_one_dimension_say_what_is_computed() {
         text.contains("(by the expression `Constraints.wide / 2 + 2 mm` in the file)"),
         "{text}"
     );
+}
+
+/// Where the straight way to what follows ends, that is no limit of the expressions; and a number that was set by hand, or a dimension
+/// of another sketch, is named where what follows does not have it.
+#[test]
+fn what_is_not_as_the_expressions_have_it_is_said() {
+    let directory = tempfile::tempdir().unwrap();
+    let file = directory.path().join("a.FCStd");
+    // c grows with the square of a, which b lets grow to 37.4; on the straight way c is too long before.
+    let constraints = [
+        constraint("", 1, 0.0, &[(0, 1), (-1, 1)]),
+        constraint("", 2, 0.0, &[(0, 0)]),
+        constraint("", 1, 0.0, &[(0, 2), (1, 1)]),
+        constraint("", 1, 0.0, &[(0, 1), (2, 1)]),
+        constraint("", 1, 0.0, &[(1, 2), (2, 2)]),
+        constraint("a", 6, 20.0, &[(0, 0)]),
+        constraint("b", 6, 15.0, &[(1, 0)]),
+        constraint("c", 6, 15.0, &[(2, 0)]),
+    ];
+    let height = 125f64.sqrt();
+    let geometry = line([0.0, 0.0, 20.0, 0.0])
+        + &line([20.0, 0.0, 10.0, height])
+        + &line([0.0, 0.0, 10.0, height]);
+    let expression =
+        "<Expression path=\"Constraints.c\" expression=\"15 mm * (Constraints.a / 20 mm) ^ 2\"/>";
+    let triangle = sketch(&constraints.concat(), &geometry, expression);
+    let other = "<Expression path=\"Constraints.c\" expression=\"Sketch.Constraints.a - 5 mm\"/>";
+    let other = sketch(&constraints.concat(), &geometry, other);
+    let kind = "Sketcher::SketchObject";
+    let bytes = archive(&[(kind, "Sketch", &triangle), (kind, "Sketch001", &other)]);
+    fs::write(&file, bytes).unwrap();
+    for (wanted, code) in [("a=90", 3), ("a=21", 0)] {
+        let asked = ["edit", "--sketch", "Sketch", "--set", wanted];
+        let (found, text) = run(&file, &asked);
+        assert!(
+            found == code && text.contains("Sketch001.c follows too, and is not led here"),
+            "{text}"
+        );
+        assert_eq!(text.contains("go in straight lines"), code == 3, "{text}");
+    }
+    let expressions = [
+        ("Constraints.high", "Constraints.wide / 2 + 2 mm"),
+        (
+            "Constraints.long",
+            "Constraints.high + Constraints.turn.Value * 1 mm - 16 mm",
+        ),
+    ];
+    fs::write(&file, corner([20.0, 12.0, 26.0, 30.0], &expressions, &[])).unwrap();
+    let mut serve = Command::new(env!("CARGO_BIN_EXE_krawl"));
+    let serve = serve.args(["edit", file.to_str().unwrap(), "--serve"]);
+    let lines = "{\"set\": {\"turn\": 31}}\n{\"set\": {\"high\": 14}}\n{\"set\": {\"turn\": 40}}\n";
+    let answers = serve.write_stdin(lines).output().unwrap().stdout;
+    let answers = String::from_utf8(answers).unwrap();
+    let [first, _, third] = &answers.lines().collect::<Vec<_>>()[..] else {
+        panic!("{answers}")
+    };
+    assert!(first.contains("\"warnings\":[]"), "{first}");
+    let words = "high is 14 here, and 12 by its expression";
+    assert!(third.contains(words), "{third}");
 }

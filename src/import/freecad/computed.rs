@@ -49,6 +49,8 @@ enum Content {
 pub struct Numbers {
     objects: Vec<Object>,
     entries: Vec<Entry>,
+    /// The entries of each object by their names, the first of each.
+    named: HashMap<(usize, String), usize>,
     /// Why each has no number in the file that can be used, if that is so.
     faults: Vec<Option<String>>,
     /// The sketch that was read.
@@ -131,6 +133,12 @@ impl Numbers {
                 entries: begin..numbers.entries.len(),
             });
         }
+        for (entry, Entry { object, names, .. }) in numbers.entries.iter().enumerate() {
+            for name in names.iter().filter(|name| !name.is_empty()) {
+                let named = numbers.named.entry((*object, name.clone()));
+                named.or_insert(entry);
+            }
+        }
         for (object, (node, ..)) in all.iter().enumerate() {
             for node in listed(*node, "ExpressionEngine", "Expression") {
                 let [path, text] =
@@ -168,20 +176,17 @@ impl Numbers {
             }
             _ => (Some(of), parts),
         };
-        let object = object.map(|object| &self.objects[object]);
-        let parts = match (object.is_some_and(|o| o.is_sheet), parts) {
+        let is_sheet = object.is_some_and(|object| self.objects[object].is_sheet);
+        let parts = match (is_sheet, parts) {
             (false, ["Constraints", rest @ ..]) => rest,
             (true, all) => all,
             _ => &[],
         };
         let found = object.and_then(|object| {
-            let mut own = object.entries.clone();
             let name = parts.first()?.replace('$', "");
             let entry = match Path::index(&name) {
-                Some(index) => own.nth(index),
-                None => {
-                    own.find(|&entry| !name.is_empty() && self.entries[entry].names.contains(&name))
-                }
+                Some(index) => self.objects[object].entries.clone().nth(index),
+                None => self.named.get(&(object, name)).copied(),
             }?;
             matches!(parts, [_] | [_, "Value"]).then(|| (entry, parts.len() > 1))
         });
@@ -305,6 +310,32 @@ impl<'a> Evaluation<'a> {
             way: Vec::new(),
             is_new: false,
         }
+    }
+
+    /// The dimensions of other sketches that follow from what is new, by name.
+    pub fn elsewhere(&mut self) -> Vec<String> {
+        let numbers = self.numbers;
+        let mut names = Vec::new();
+        for (
+            entry,
+            Entry {
+                object, content, ..
+            },
+        ) in numbers.entries.iter().enumerate()
+        {
+            let is_elsewhere = *object != numbers.own && !numbers.objects[*object].is_sheet;
+            if is_elsewhere && matches!(content, Content::Computed(..)) {
+                self.is_new = false;
+                let _ = self.value(entry);
+                names.extend(self.is_new.then(|| numbers.shown(entry)));
+            }
+        }
+        names
+    }
+
+    /// The number of a constraint of the sketch.
+    pub fn number(&mut self, source: usize) -> Found {
+        self.value(self.numbers.entry(source))
     }
 
     /// The number of a constraint of the sketch that follows from what is new; `None`: nothing of that is in it.

@@ -1,7 +1,7 @@
 //! Numbers with units as FreeCAD's expressions have them: lengths in millimetres, angles in degrees, products and powers of these, and
 //! plain numbers.
 //!
-//! Where FreeCAD's versions differ, or where rounding decides what comes out, there is no number.
+//! There are none where rounding decides what comes out, as in `floor` and comparisons: angles are kept in radians there.
 
 use crate::import::drawing::decimal;
 use crate::problem::counted;
@@ -38,9 +38,6 @@ const ANGLES: [(&str, f64); 4] = [
     ("rad", 180.0 / std::f64::consts::PI),
     ("gon", 0.9),
 ];
-
-/// What is nearer than this to where rounding decides, in parts of the numbers there, is not decided.
-const NEAR: f64 = 1e-7;
 
 impl Quantity {
     pub fn plain(value: f64) -> Self {
@@ -156,29 +153,9 @@ fn same(a: Quantity, b: Quantity) -> Result<(), String> {
     }
 }
 
-/// Refuses what rounding decides: `gap` is how far a number is from where the answer changes. Lengths and plain numbers are computed as there,
-/// so that 0 is 0; angles are kept in radians there.
-fn decided(gap: f64, size: f64, is_angle: bool) -> Result<(), String> {
-    match gap.abs() <= NEAR * size.max(1.0) && (gap != 0.0 || is_angle) {
-        true => Err("rounding decides what comes out".to_owned()),
-        false => Ok(()),
-    }
-}
-
-/// The remainder of a division, as C and Python have it, which differ where the signs do.
-fn remainder(a: Quantity, b: Quantity) -> Result<f64, String> {
-    let parts = a.value / b.value;
-    decided(parts - parts.round(), parts.abs(), a.is_angle())?;
-    let rest = a.value % b.value;
-    match rest != 0.0 && (rest < 0.0) != (b.value < 0.0) {
-        true => Err("versions of FreeCAD differ in remainders of negative numbers".to_owned()),
-        false => Ok(rest),
-    }
-}
-
 /// What an operator makes of two numbers.
 pub fn operate(operator: &str, a: Quantity, b: Quantity) -> Result<Quantity, String> {
-    if matches!(operator, "/" | "%") && b.value == 0.0 {
+    if operator == "/" && b.value == 0.0 {
         return Err("it divides by zero".to_owned());
     }
     let made = match operator {
@@ -192,39 +169,18 @@ pub fn operate(operator: &str, a: Quantity, b: Quantity) -> Result<Quantity, Str
             value: a.value / b.value,
             unit: [0, 1].map(|k| a.unit[k].saturating_sub(b.unit[k])),
         },
-        "%" => {
-            b.like(a)?;
-            a.with(remainder(a, b)?)
-        }
         "^" => a.power(b)?,
         _ => return Err(format!("`{operator}` is no operator of numbers")),
     };
     made.checked()
 }
 
-/// Whether a comparison holds. A plain number is compared with the number of any other.
-pub fn compare(operator: &str, a: Quantity, b: Quantity) -> Result<bool, String> {
-    if !a.is_plain() && !b.is_plain() {
-        same(a, b)?;
-    }
-    let (a, b, is_angle) = (a.value, b.value, a.is_angle() || b.is_angle());
-    decided(a - b, a.abs().max(b.abs()), is_angle)?;
-    Ok(match operator {
-        "==" => a == b,
-        "!=" => a != b,
-        "<" => a < b,
-        ">" => a > b,
-        "<=" => a <= b,
-        _ => a >= b,
-    })
-}
-
 /// What a function makes of numbers.
 pub fn call(name: &str, of: &[Quantity]) -> Result<Quantity, String> {
     let count = match name {
         "min" | "max" => 1..=usize::MAX,
-        "hypot" | "cath" => 2..=3,
-        "atan2" | "mod" | "pow" => 2..=2,
+        "hypot" => 2..=3,
+        "atan2" | "pow" => 2..=2,
         _ => 1..=1,
     };
     let none = || {
@@ -245,19 +201,9 @@ pub fn call(name: &str, of: &[Quantity]) -> Result<Quantity, String> {
         false => Err(format!("`{name}` takes an angle, and {a} is none")),
     };
     let to_angle = |x: Quantity| Quantity::angle(x.value.to_degrees());
-    // Where a number is rounded another way: at whole numbers, or half of one above.
-    let rounded = |f: fn(f64) -> f64, above: f64| {
-        let x = a.value - above;
-        decided(x - x.round(), x.abs(), a.is_angle()).map(|()| a.with(f(a.value)))
-    };
     let all_same = || of.iter().try_for_each(|&x| same(a, x));
     let best = |f: fn(f64, f64) -> f64| {
         all_same().map(|()| a.with(of.iter().map(|x| x.value).fold(a.value, f)))
-    };
-    let squares = |sign: f64| {
-        let rest = of[1..].iter().map(|x| sign * x.value.powi(2));
-        let sum: f64 = rest.fold(a.value.powi(2), |sum, x| sum + x);
-        all_same().map(|()| a.with(sum.sqrt()))
     };
     let made = match name {
         "abs" => Ok(a.with(a.value.abs())),
@@ -273,20 +219,13 @@ pub fn call(name: &str, of: &[Quantity]) -> Result<Quantity, String> {
         "acos" => of_plain(f64::acos).map(to_angle),
         "atan" => of_plain(f64::atan).map(to_angle),
         "atan2" => same(a, b).map(|()| Quantity::angle(a.value.atan2(b.value).to_degrees())),
-        "exp" => of_plain(f64::exp),
-        "log" => of_plain(f64::ln),
-        "log10" => of_plain(f64::log10),
-        "floor" => rounded(f64::floor, 0.0),
-        "ceil" => rounded(f64::ceil, 0.0),
-        "trunc" => rounded(f64::trunc, 0.0),
-        "round" => rounded(f64::round, 0.5),
         "min" => best(f64::min),
         "max" => best(f64::max),
-        "hypot" => squares(1.0),
-        "cath" => squares(-1.0),
+        "hypot" => {
+            let squares = of.iter().map(|x| x.value.powi(2));
+            all_same().map(|()| a.with(squares.sum::<f64>().sqrt()))
+        }
         "pow" => a.power(b),
-        "mod" if b.value == 0.0 => Err("it divides by zero".to_owned()),
-        "mod" => operate("/", a, b).and_then(|unit| Ok(unit.with(remainder(a, b)?))),
         _ => Err(none()),
     };
     made?.checked()
