@@ -117,12 +117,18 @@ pub fn solve(name: &str, system: String) -> String {
     let said = std::fs::read_to_string(&output);
     let said = said.unwrap_or_else(|_| String::from_utf8_lossy(&run.stdout).into_owned());
     let _ = std::fs::remove_dir_all(&folder);
-    let mut lines = said.lines().filter(|line| line.contains("solutions"));
-    // PHCpack says other things of solutions before.
-    let count = lines.clone().find(|line| line.starts_with("A list of"));
-    let count = count.or_else(|| lines.next());
+    let lines = said.lines().filter(|line| line.contains("solutions"));
+    // PHCpack says other things of solutions before, and may have lists of several parts.
+    let lists: Vec<&str> = lines
+        .clone()
+        .filter(|line| line.starts_with("A list of"))
+        .collect();
+    let count = match lists.is_empty() {
+        true => lines.take(1).collect::<String>(),
+        false => lists.join(" "),
+    };
     match run.status.code() {
-        Some(0) => format!("{seconds:.2} s, {}", count.unwrap_or("").trim()),
+        Some(0) => format!("{seconds:.2} s, {}", count.trim()),
         Some(124) => format!("stopped after {PATIENCE} s"),
         _ => format!("failed after {seconds:.2} s"),
     }

@@ -61,7 +61,7 @@ pub struct Arguments {
     /// Do not check the certificate that was written
     #[arg(long, requires = "cert", hide_short_help = true)]
     no_verify: bool,
-    /// Threads to use [default: one per processor]; the answer does not depend on it
+    /// Threads to use [default: one per processor]; the solutions do not depend on it
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
     /// Stop after so many seconds, and say what is undecided

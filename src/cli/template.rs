@@ -180,10 +180,18 @@ fn summary(problem: &Problem, lowered: &Lowered, fibre: &Fibre, seconds: f64) ->
     let count = krawl::complex::count_generic(&fibre.solutions, &lowered.system);
     let is_absolute = lowered.system.is_absolute;
     let found = match is_absolute {
-        true => format!("{} solutions", count.isometry),
+        true => counted(count.isometry, "solution"),
         false => format!(
             "{} solutions up to signs of axes, {} up to rotation, {} in the gauge",
             count.isometry, count.rotation, count.gauge
+        ),
+    };
+    let up_to = if is_absolute { "" } else { " up to rotation" };
+    let idle = match fibre.ways {
+        0 => String::new(),
+        _ => format!(
+            "; the last {} found nothing new",
+            counted(fibre.idle, "way")
         ),
     };
     let full = match (&lowered.bound, lowered.enough()) {
@@ -194,14 +202,11 @@ fn summary(problem: &Problem, lowered: &Lowered, fibre: &Fibre, seconds: f64) ->
             )
         }
         (Some(bound), _) => format!(
-            "{found}, each proved. That these are all is not proved: {} is {} up to rotation; the last {} ways found \
-             nothing new.",
-            bound.source, bound.count, fibre.idle
+            "{found}, each proved. That these are all is not proved: {} is {}{up_to}{idle}.",
+            bound.source, bound.count
         ),
         (None, _) => format!(
-            "{found}, each proved. That these are all is not proved: no bound is known; the last {} ways found \
-             nothing new.",
-            fibre.idle
+            "{found}, each proved. That these are all is not proved: no bound is known{idle}."
         ),
     };
     let mut text = format!("{}: {full}\n", problem.name);

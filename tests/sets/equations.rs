@@ -280,6 +280,24 @@ fn real_solutions_are_told_by_all_complex_ones() {
             assert!((sum - x[m as usize]).abs() < 1e-12, "{x:?}");
         }
     }
+    // What a search of boxes ends with undecided, as an unknown may be large.
+    let cubic = read("equations = [\"2*x*x + x^3 + 0*x = 3\"]\n[unknowns]\nx = 1\n");
+    let cubic = all(&cubic, &Options::default()).unwrap();
+    assert_eq!((cubic.status, cubic.count), (Status::Complete, Some(1)));
+    // More equations than unknowns are tested as they were.
+    for (equations, count) in [
+        ("\"x^2 + y^2 = 5\", \"x*y = 2\", \"x + y = 3\"", 2),
+        ("\"x^2 + y^2 = 5\", \"x*y = 2\", \"x + y = 4\"", 0),
+    ] {
+        let text = format!("equations = [{equations}]\n[unknowns]\nx = 1\ny = 2.1\n");
+        let problem = Problem::parse_loosely(&text, "equations.toml").unwrap();
+        let found = all(&problem, &Options::default()).unwrap();
+        assert_eq!(
+            (found.status, found.count),
+            (Status::Complete, Some(count)),
+            "{text}"
+        );
+    }
     // x^4 + y = 1 and y = 3 + 2 x^2 have no real solution, and four complex ones of at most eight.
     let (found, is_complete) = real(&read(
         "equations = [\"x^4 + y = 1\", \"y - 2*x^2 = 3\"]\n[unknowns]\nx = 1\ny = 2\n",

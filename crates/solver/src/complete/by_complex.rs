@@ -11,7 +11,7 @@
 use super::coordinates;
 use super::outcome::Method;
 use super::search::Run;
-use super::{Complete, Options, Unserved};
+use super::{Complete, Options, Status, Unserved};
 use crate::complex::{self, Filling, Lowered, Nature, Template, Ways};
 use crate::interval::DoubleDouble;
 use crate::problem::Problem;
@@ -29,7 +29,8 @@ const MOST: u128 = 5000;
 /// All real solutions, by a short search, by all complex solutions, or else by a search of the rest of the time. `None`: this is no
 /// such problem.
 pub(super) fn all(problem: &Problem, options: &Options) -> Option<Result<Complete, Unserved>> {
-    if !problem.points.is_empty() {
+    // Each constraint is one equation, beside those of what it is made of.
+    if !problem.points.is_empty() || problem.constraints.len() != problem.objects.len() {
         return None;
     }
     let lowered = complex::lower(problem).ok()?;
@@ -52,12 +53,19 @@ pub(super) fn all(problem: &Problem, options: &Options) -> Option<Result<Complet
         coordinates::all(problem, &within)
     };
     let first = match search(options.most_boxes.min(FIRST)) {
-        Ok(first) if first.was_ended() && options.most_boxes > FIRST => first,
+        Ok(first) if first.status != Status::Complete => first,
         decided => return Some(decided),
     };
     let stop = AtomicBool::new(false);
-    let run = Run::new(&stop, options, false);
-    let real = options.watched(&run, begin, || {
+    // What is told of a search of boxes is not told of paths.
+    let untold = Options {
+        cancel: options.cancel,
+        time: options.time,
+        threads: options.threads,
+        ..Options::default()
+    };
+    let run = Run::new(&stop, &untold, false);
+    let real = untold.watched(&run, begin, || {
         let (near, count) = real(problem, &lowered, options, begin)?;
         Some((proved_near(problem, &near)?, count))
     });
@@ -75,7 +83,8 @@ pub(super) fn all(problem: &Problem, options: &Options) -> Option<Result<Complet
             solutions,
             ..Complete::empty(problem, String::new(), begin)
         },
-        // What is known by now is not searched again.
+        // There is nothing left to search, or no time.
+        None if !first.was_ended() || options.most_boxes <= FIRST => first,
         None if is_cancelled() || left().is_some_and(|left| left.is_zero()) => first,
         None => match search(options.most_boxes) {
             Ok(result) => result,
@@ -93,7 +102,9 @@ fn real(
     options: &Options,
     begin: Instant,
 ) -> Option<(Vec<Vec<f64>>, usize)> {
+    // The claim rests on the number of solutions, each proved, and not on how they were come to.
     let within = Ways {
+        proved: false,
         cancel: options.cancel,
         deadline: options.time.map(|time| begin + time),
         ..Ways::default()

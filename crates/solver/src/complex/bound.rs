@@ -66,7 +66,8 @@ pub fn of_equations(problem: &Problem) -> Option<Bound> {
             }
         }
     }
-    Some(Bound {
+    // An equation without unknowns says nothing of zeros, or that there are none.
+    (count > 0).then(|| Bound {
         count,
         source: "Bézout's bound, the product of the degrees of the equations".to_owned(),
         is_cited: false,

@@ -220,6 +220,9 @@ impl Follower {
     }
 }
 
+/// Why what was not begun was not done.
+const OVER: &str = "the time was over, or it was interrupted";
+
 /// How many paths one follower takes, of all: setting it up costs as much as a few tubes.
 fn piece(count: usize) -> usize {
     count.div_ceil(4 * rayon::current_num_threads()).max(1)
@@ -243,7 +246,7 @@ pub fn follow_all(
             let mut effort = Effort::default();
             let ends = starts.iter().map(|start| {
                 if ways.is_over() {
-                    return PathEnd::Stopped("the time was over, or it was interrupted".to_owned());
+                    return PathEnd::Stopped(OVER.to_owned());
                 }
                 let end = match &mut floats {
                     None => follower.follow(start, ways, &mut effort),
@@ -267,19 +270,23 @@ pub fn follow_all(
     (ends, effort)
 }
 
-/// Proves boxes around many points, for the parameters at t = 1, on all threads.
+/// Proves boxes around many points, for the parameters at t = 1, on all threads, until the time of `ways` is over.
 pub fn prove_all(
     system: &System,
     rights: &[Right],
     points: &[Vec<DoubleDouble>],
+    ways: &Ways,
 ) -> Vec<Result<SolutionBox, String>> {
     let homotopy = system.homotopy();
     points
         .par_chunks(piece(points.len()))
         .flat_map_iter(|points| {
             let mut follower = Follower::new(system, homotopy.clone(), rights, &Ways::default());
-            let proved: Vec<_> = points.iter().map(|point| follower.prove(point)).collect();
-            proved
+            let proved = points.iter().map(|point| match ways.is_over() {
+                true => Err(OVER.to_owned()),
+                false => follower.prove(point),
+            });
+            proved.collect::<Vec<_>>()
         })
         .collect()
 }

@@ -154,7 +154,8 @@ fn add_conjugates(system: &System, set: &mut SolutionSet) -> usize {
         return 0;
     }
     let target = system.target();
-    let proved = prove_all(system, &segment(&target, &target, None), &alone);
+    let rights = segment(&target, &target, None);
+    let proved = prove_all(system, &rights, &alone, &Ways::default());
     let before = set.len();
     for one in proved.into_iter().flatten() {
         if set.find(&one, group, false) == Found::New {

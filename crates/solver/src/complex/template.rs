@@ -2,7 +2,7 @@
 
 use super::boxes::{Found, SolutionSet};
 use super::exact::{Exact, Parameter};
-use super::follow::prove_all;
+use super::follow::{Ways, prove_all};
 use super::monodromy::Fibre;
 use super::system::{System, segment};
 use crate::rational::Rational;
@@ -172,7 +172,7 @@ impl Template {
         let mut solutions = SolutionSet::default();
         let exactly = |point: &Vec<f64>| point.iter().map(|&x| x.into()).collect();
         let points: Vec<_> = file.solutions.iter().map(exactly).collect();
-        let proved = prove_all(system, &rights, &points);
+        let proved = prove_all(system, &rights, &points, &Ways::default());
         for (k, proved) in proved.into_iter().enumerate() {
             let fail = |reason: String| TemplateError::Unproved {
                 index: k + 1,

@@ -269,7 +269,7 @@ pub fn lead(system: &System, fibre: &mut Fibre, random: &mut Random, ways: &Ways
     };
     let starts: Vec<Vec<DoubleDouble>> = (0..paths).map(start).collect();
     let rights = segment(&leading.from, &leading.from, None);
-    let proved = prove_all(&leading.system, &rights, &starts);
+    let proved = prove_all(&leading.system, &rights, &starts, ways);
     let starts: Vec<SolutionBox> = proved.into_iter().flatten().collect();
     let ways = Ways {
         proved: false,
@@ -293,7 +293,7 @@ pub fn lead(system: &System, fibre: &mut Fibre, random: &mut Random, ways: &Ways
     }
     let rights = segment(parameters, parameters, None);
     let mut came = vec![false; fibre.solutions.len()];
-    for found in prove_all(system, &rights, &ends_near) {
+    for found in prove_all(system, &rights, &ends_near, &ways) {
         let place = found.map(|found| (fibre.solutions.find(&found, &system.group, false), found));
         match place {
             Ok((Found::New, found)) => {
