@@ -200,15 +200,32 @@ fn near([re, im]: &Parameter) -> Z {
     Z::new(re.double().0, im.double().0)
 }
 
-/// Leads the zeros of powers to those of a fibre's instance, and adds what is new to it. `None`, and nothing is done, where equations
-/// have no degrees, or the product of these is too large.
-pub fn lead(system: &System, fibre: &mut Fibre, random: &mut Random, ways: &Ways) -> Option<Led> {
-    if !system.points.is_empty() {
-        return None;
+/// A number of which the unknown's power is at the start.
+struct Root {
+    unknown: usize,
+    degree: usize,
+    right: Z,
+}
+
+impl Root {
+    /// One of its roots.
+    fn turned(&self, turns: usize) -> Z {
+        let Z { re, im } = self.right;
+        let angle = im.hi.atan2(re.hi) + TAU * turns as f64;
+        let size = self.right.norm_sqr().powf(0.5 / self.degree as f64);
+        let (sine, cosine) = (angle / self.degree as f64).sin_cos();
+        Z::new((size * cosine).into(), (size * sine).into())
     }
-    let parameters = &fibre.parameters;
-    let degrees = Degrees::of(system)?;
-    let paths = degrees.paths()?;
+}
+
+/// The equations that lead the zeros of powers to those of an instance with these parameters: s is told by the last one. With the numbers
+/// of which the powers are.
+fn equations(
+    system: &System,
+    degrees: &Degrees,
+    parameters: &[Parameter],
+    random: &mut Random,
+) -> (Leading, Vec<Root>) {
     let mut leading = Leading {
         system: System {
             equations: Vec::new(),
@@ -222,10 +239,14 @@ pub fn lead(system: &System, fibre: &mut Fibre, random: &mut Random, ways: &Ways
         let terms = system.equations[equation].terms.clone();
         leading.define(unknown, terms, parameters[equation].clone());
     }
-    // For each of the other unknowns its powers' root nearest to the positive real numbers, and how many there are.
     let mut roots = Vec::with_capacity(degrees.free.len());
     for (&unknown, &(equation, degree)) in degrees.free.iter().zip(&degrees.open) {
         let right = random.apart_from_zero().parts();
+        roots.push(Root {
+            unknown,
+            degree,
+            right: near(&right),
+        });
         let [left, other] = leading.power(&mut vec![(1, unknown)], degree);
         let rest = leading.unknown(format!("rest of {}", system.equations[equation].name));
         let of = system.equations[equation].terms.iter();
@@ -234,66 +255,81 @@ pub fn lead(system: &System, fibre: &mut Fibre, random: &mut Random, ways: &Ways
             Term::new(2, left, other),
         ];
         terms.extend(of.map(|term| Term::new(-term.factor, term.left, term.right)));
-        let [of, c] = [&right, &parameters[equation]];
-        leading.define(rest, terms, [&of[0] - &c[0], &of[1] - &c[1]]);
+        let [b, c] = [&right, &parameters[equation]];
+        leading.define(rest, terms, [&b[0] - &c[0], &b[1] - &c[1]]);
         let terms = vec![
             Term::new(2, left, other),
             Term::new(2, value(along), value(rest)),
         ];
-        let at = near(&right);
-        roots.push((
-            unknown,
-            at.norm_sqr().sqrt(),
-            at.im.hi.atan2(at.re.hi),
-            degree,
-        ));
         leading.equation(terms, right);
     }
     leading.equation(vec![Term::new(2, value(along), Form::One)], zero());
     let n = leading.from.len();
     leading.system = leading.system.with_groups(&[vec![false; n]]);
-    let [mut to, mut bow] = [leading.from.clone(), vec![zero(); n]];
-    (to[n - 1], bow[n - 1]) = (Exact::whole(1).parts(), random.complex().parts());
+    (leading, roots)
+}
+
+/// Leads the zeros of powers to those of a fibre's instance, and adds what is new to it. `None`, and nothing is done, where equations
+/// have no degrees, or the product of these is too large.
+pub fn lead(system: &System, fibre: &mut Fibre, random: &mut Random, ways: &Ways) -> Option<Led> {
+    if !system.points.is_empty() {
+        return None;
+    }
+    let degrees = Degrees::of(system)?;
+    let paths = degrees.paths()?;
+    let (leading, roots) = equations(system, &degrees, &fibre.parameters, random);
+    let (n, from) = (leading.from.len(), &leading.from);
     // Every choice of a root for each unknown.
     let start = |mut choice: usize| {
         let mut values = vec![Z::default(); n];
-        for &(unknown, size, angle, degree) in &roots {
-            let turns = (choice % degree) as f64;
-            choice /= degree;
-            let (sine, cosine) = ((angle + TAU * turns) / degree as f64).sin_cos();
-            let size = size.powf(1.0 / degree as f64);
-            values[unknown] = Z::new((size * cosine).into(), (size * sine).into());
+        for root in &roots {
+            values[root.unknown] = root.turned(choice % root.degree);
+            choice /= root.degree;
         }
         leading.complete(&mut values);
         values.iter().flat_map(|z| [z.re, z.im]).collect()
     };
     let starts: Vec<Vec<DoubleDouble>> = (0..paths).map(start).collect();
-    let rights = segment(&leading.from, &leading.from, None);
-    let proved = prove_all(&leading.system, &rights, &starts, ways);
+    let proved = prove_all(&leading.system, &segment(from, from, None), &starts, ways);
     let starts: Vec<SolutionBox> = proved.into_iter().flatten().collect();
+    let starts: Vec<&SolutionBox> = starts.iter().collect();
     let ways = Ways {
         proved: false,
         radius: RADIUS,
         ..*ways
     };
-    let rights = segment(&leading.from, &to, Some(&bow));
-    let starts: Vec<&SolutionBox> = starts.iter().collect();
+    let [mut to, mut bow] = [from.clone(), vec![zero(); n]];
+    (to[n - 1], bow[n - 1]) = (Exact::whole(1).parts(), random.complex().parts());
+    let rights = segment(from, &to, Some(&bow));
     let (ends, took) = follow_all(&leading.system, &rights, &starts, &ways);
     fibre.effort.add(took);
-    let (mut infinite, mut why, mut ends_near) = (0, None, Vec::new());
+    let (infinite, came) = enter(system, fibre, ends, &ways);
+    let stopped = paths - infinite - came;
+    fibre.failed.0 = stopped;
+    Some(Led {
+        paths,
+        infinite,
+        stopped,
+    })
+}
+
+/// Enters the ends of all paths. Tells how many went to infinity, and to how many solutions the others came.
+fn enter(system: &System, fibre: &mut Fibre, ends: Vec<PathEnd>, ways: &Ways) -> (usize, usize) {
+    let (mut infinite, mut near) = (0, Vec::new());
+    let why = &mut fibre.failed.1;
     for end in ends {
         match end {
             PathEnd::Reached(found) => {
-                ends_near.push(found.middle()[..2 * system.unknowns.len()].to_vec());
+                near.push(found.middle()[..2 * system.unknowns.len()].to_vec());
             }
             PathEnd::Beyond(t, _) if t > LATE => infinite += 1,
-            PathEnd::Beyond(t, _) => why = Some(format!("unknowns are large at t = {t:.4}")),
-            PathEnd::Stopped(reason) => why = Some(reason),
+            PathEnd::Beyond(t, _) => *why = Some(format!("unknowns are large at t = {t:.4}")),
+            PathEnd::Stopped(reason) => *why = Some(reason),
         }
     }
-    let rights = segment(parameters, parameters, None);
+    let rights = segment(&fibre.parameters, &fibre.parameters, None);
     let mut came = vec![false; fibre.solutions.len()];
-    for found in prove_all(system, &rights, &ends_near, &ways) {
+    for found in prove_all(system, &rights, &near, ways) {
         let place = found.map(|found| (fibre.solutions.find(&found, &system.group, false), found));
         match place {
             Ok((Found::New, found)) => {
@@ -302,17 +338,10 @@ pub fn lead(system: &System, fibre: &mut Fibre, random: &mut Random, ways: &Ways
             }
             Ok((Found::Old(index), _)) => came[index] = true,
             Ok((Found::Unknown, _)) => {
-                why = Some("two solutions could not be told apart".to_owned())
+                *why = Some("two solutions could not be told apart".to_owned())
             }
-            Err(reason) => why = Some(reason),
+            Err(reason) => *why = Some(reason),
         }
     }
-    let came = came.into_iter().filter(|came| *came).count();
-    let stopped = paths - infinite - came;
-    fibre.failed = (stopped, why);
-    Some(Led {
-        paths,
-        infinite,
-        stopped,
-    })
+    (infinite, came.into_iter().filter(|came| *came).count())
 }
