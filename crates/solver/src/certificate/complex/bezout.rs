@@ -6,9 +6,8 @@
 //! are dimensions (Bartzos, Emiris, Schicho, *On the multihomogeneous Bézout bound on the number of embeddings of
 //! minimally rigid graphs*, 2020).
 
-use crate::map::Map;
 use crate::problem::Problem;
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
 /// As many ways to have given edges to points are looked at, at a time.
 const MOST: usize = 1 << 18;
@@ -19,7 +18,10 @@ fn ordered(mut edges: Vec<Vec<usize>>) -> Vec<Vec<usize>> {
     edges.sort();
     let mut out: Vec<Vec<usize>> = Vec::with_capacity(edges.len());
     while !edges.is_empty() {
-        let left = Map::sums(edges.iter().flatten().map(|&end| (end, 1)));
+        let mut left: BTreeMap<usize, usize> = BTreeMap::new();
+        for &end in edges.iter().flatten() {
+            *left.entry(end).or_default() += 1;
+        }
         let begun = |end: usize| out.iter().flatten().any(|&other| other == end);
         let next = left
             .iter()

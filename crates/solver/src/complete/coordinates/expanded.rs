@@ -4,7 +4,7 @@ use super::newton::{KNOWN, Square};
 use super::system::Row;
 use crate::certificate::cover::coordinates::bounds::Expanded;
 use crate::interval::{Interval, ZERO, point};
-use crate::map::Map;
+use std::collections::BTreeMap;
 
 /// Four times a row in n unknowns, where `of` has the place of each among these, or else the range of an entry. `None`: two of them are
 /// multiplied by something else than a small number of quarters.
@@ -14,9 +14,8 @@ pub fn expanded(
     of: impl Fn(usize) -> Result<usize, Interval>,
 ) -> Option<Expanded> {
     let four = point(4.0);
-    let mut squares = Vec::new();
     let mut out = Expanded {
-        squares: Map::default(),
+        squares: BTreeMap::new(),
         linear: vec![ZERO; n],
         constant: -(four * row.right),
     };
@@ -27,14 +26,15 @@ pub fn expanded(
         if !is_whole && !parts.products.is_empty() {
             return None;
         }
-        let products = parts.products.into_iter();
-        squares.extend(products.map(|(key, sign)| (key, whole as i64 * i64::from(sign))));
+        for (key, sign) in parts.products {
+            *out.squares.entry(key).or_default() += whole as i64 * i64::from(sign);
+        }
         for (k, by) in parts.linear {
             out.linear[k] += quarters * by;
         }
         out.constant += quarters * parts.constant;
     }
-    out.squares = Map::sums(squares);
+    out.squares.retain(|_, q| *q != 0);
     Some(out)
 }
 

@@ -6,8 +6,8 @@
 
 use super::space::{Product, difference};
 use crate::interval::{Interval, ZERO, checked, point};
-use crate::map::Map;
 use crate::system::told::Flat;
+use std::collections::BTreeMap;
 
 /// Whole numbers beyond this are not reckoned with: all below are floats, exactly.
 const LARGEST: u64 = 1 << 40;
@@ -16,7 +16,7 @@ const LARGEST: u64 = 1 << 40;
 #[derive(Clone)]
 pub struct Expanded {
     /// squares_kl with k ≤ l, not zero.
-    pub squares: Map<(usize, usize), i64>,
+    pub squares: BTreeMap<(usize, usize), i64>,
     /// linear_k.
     pub linear: Vec<Interval>,
     /// constant.
@@ -30,9 +30,8 @@ impl Expanded {
         unknowns: &[usize],
         x: &[Interval],
     ) -> Self {
-        let mut squares = Vec::new();
         let mut out = Expanded {
-            squares: Map::default(),
+            squares: BTreeMap::new(),
             linear: vec![ZERO; unknowns.len()],
             constant: -right,
         };
@@ -55,7 +54,7 @@ impl Expanded {
                 (split(left), split(right));
             for &(k, s) in &l.0 {
                 for &(j, t) in &r.0 {
-                    squares.push(((k.min(j), k.max(j)), factor * s * t));
+                    *out.squares.entry((k.min(j), k.max(j))).or_default() += factor * s * t;
                 }
             }
             for (one, other) in [(&l, &r), (&r, &l)] {
@@ -65,7 +64,7 @@ impl Expanded {
             }
             out.constant += point(factor as f64) * l.1 * r.1;
         }
-        out.squares = Map::sums(squares);
+        out.squares.retain(|_, q| *q != 0);
         out
     }
 
@@ -73,7 +72,7 @@ impl Expanded {
     /// unknowns are multiplied.
     pub fn of(flat: &Flat, unknowns: &[usize], x: &[Interval]) -> Option<Self> {
         let mut out = Expanded {
-            squares: Map::default(),
+            squares: BTreeMap::new(),
             linear: vec![ZERO; unknowns.len()],
             constant: flat.constant,
         };
@@ -108,16 +107,16 @@ impl Expanded {
 
     /// This times a whole number less another one times one.
     pub fn combined(&self, by: i64, other: &Self, times: i64) -> Option<Self> {
-        let mut squares = Map::default();
+        let mut squares = BTreeMap::new();
         for (row, factor) in [(self, by), (other, times.checked_neg()?)] {
-            for (&key, &q) in row.squares.iter() {
-                let sum = squares.or_insert(key, 0i64);
+            for (&key, &q) in &row.squares {
+                let sum = squares.entry(key).or_insert(0i64);
                 *sum = sum.checked_add(factor.checked_mul(q)?)?;
             }
         }
-        squares.retain(|q| *q != 0);
+        squares.retain(|_, q| *q != 0);
         let is_large = |q: &i64| q.unsigned_abs() > LARGEST;
-        if squares.iter().any(|(_, q)| is_large(q)) || is_large(&by) || is_large(&times) {
+        if squares.values().any(is_large) || is_large(&by) || is_large(&times) {
             return None;
         }
         let (by, times) = (point(by as f64), point(times as f64));
@@ -132,7 +131,7 @@ impl Expanded {
     /// The greatest |t| if all unknowns are α + β t.
     pub fn greatest(&self, lines: &[[Interval; 2]]) -> Option<f64> {
         let (mut a, mut b, mut c) = (ZERO, ZERO, self.constant);
-        for (&(k, l), &q) in self.squares.iter() {
+        for (&(k, l), &q) in &self.squares {
             let (q, [alpha, beta], [gamma, delta]) = (point(q as f64), lines[k], lines[l]);
             // A square is never negative.
             let product = |x: Interval, y: Interval| if k == l { x.sqr() } else { x * y };
@@ -216,7 +215,7 @@ pub fn without_products(rows: &[Expanded]) -> Option<Vec<Expanded>> {
     for row in rows {
         let mut row = row.clone();
         for pivot in &curved {
-            let (key, &p) = pivot.squares.iter().next()?;
+            let (key, &p) = pivot.squares.first_key_value()?;
             if let Some(&q) = row.squares.get(key) {
                 row = row.combined(p, pivot, q)?;
             }
