@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 ///
 /// Each box holds exactly one; which are real is proved. "Complete" claims that there is no other isolated solution, and
 /// is claimed only where their number meets a proved bound, with figures that these dimensions send to infinity, which are proved and
-/// counted too. Without a template one is made first.
+/// counted too. Without a template one is made first: of equations without points in floats, each solution proved.
 #[derive(clap::Args)]
 #[command(after_long_help = "\
 Examples:

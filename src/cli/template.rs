@@ -87,6 +87,9 @@ impl Search {
             let paths = effort.paths;
             line.show_text(format!("template: {found} solutions   {paths} paths"));
         };
+        let tell_paths = |done: usize, all: usize| {
+            line.show_text(format!("template: {done} of {all} paths"));
+        };
         let plain = Filling::default();
         let filling = Filling {
             seed: self.seed,
@@ -101,6 +104,7 @@ impl Search {
                 proved: !self.float,
                 cancel: Some(interrupt::flag()),
                 deadline: interrupt::deadline(self.time),
+                progress: Some(&tell_paths),
                 ..plain.ways
             },
         };

@@ -708,7 +708,8 @@ pub fn followed(imported: &Imported, places: &Places, now: &Problem, set: &[Sett
                 let by_it = by_it
                     .ok()
                     .and_then(|value| decimal(sense.in_problem(value.value)));
-                if let Some(by_it) = by_it.filter(|by_it| !is_near(by_it.to_f64(), here)) {
+                if let Some(by_it) = by_it.filter(|by_it| !computed::is_same(by_it.to_f64(), here))
+                {
                     followed.warnings.push(format!(
                         "{name} is {here} here, and {by_it} by its expression `{expression}`: what is computed from it takes that"
                     ));
@@ -750,11 +751,6 @@ pub fn followed(imported: &Imported, places: &Places, now: &Problem, set: &[Sett
         ));
     }
     followed
-}
-
-/// Whether two numbers differ by no more than roundings.
-fn is_near(a: f64, b: f64) -> bool {
-    (a - b).abs() <= 1e-9 * a.abs().max(b.abs()).max(1e-3)
 }
 
 pub fn read(bytes: &[u8], index: usize) -> Result<Imported, String> {

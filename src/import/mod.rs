@@ -274,8 +274,8 @@ impl Followed {
     pub fn note_way(&mut self) {
         if !self.set.is_empty() {
             self.warnings.push(
-                "on the way all numbers that are set or follow go in straight lines to what they are to be: where that ends is no \
-                 limit of the file's, in which numbers go by their expressions"
+                "on the way lengths that are set or follow go in straight lines to what they are to be, and so do cosines of angles: where \
+                 that ends is no limit of the file's, in which numbers go by their expressions"
                     .to_owned(),
             );
         }

@@ -127,7 +127,7 @@ pub fn edit_in_words(problem: &Problem, edited: &Edited) -> String {
             });
             let reached = reached.collect::<Vec<_>>().join(", ");
             let together = if edited.dimensions.len() > 1 {
-                " together"
+                " together, led in step"
             } else {
                 ""
             };

@@ -8,8 +8,6 @@ use roxmltree::{Document, Node};
 use std::collections::HashMap;
 use std::ops::Range;
 
-/// What an expression gives, and what the file has, differ by no more than this part.
-const SAME: f64 = 1e-9;
 /// So many numbers are computed from one another, each from one that is not known yet.
 const MOST: usize = 50;
 
@@ -284,6 +282,11 @@ impl Numbers {
     }
 }
 
+/// Whether what an expression gives is what the file, or the figure, has: they differ by no more than roundings do.
+pub fn is_same(by_it: f64, has: f64) -> bool {
+    (by_it - has).abs() <= 1e-9 * by_it.abs().max(has.abs()) + 1e-12
+}
+
 /// What numbers come to where some are set.
 pub struct Evaluation<'a> {
     numbers: &'a Numbers,
@@ -406,9 +409,7 @@ impl<'a> Evaluation<'a> {
             return Ok(value);
         };
         let value = value.like(said)?;
-        let most = value.value.abs().max(said.value.abs());
-        let is_same = (value.value - said.value).abs() <= SAME * most + 1e-12;
-        match is_same || !numbers.faults.is_empty() {
+        match is_same(value.value, said.value) || !numbers.faults.is_empty() {
             true => Ok(value),
             false => Err(format!(
                 "by it {} is {value}, and the file has {said}",

@@ -85,7 +85,8 @@ struct Way {
 /// Ways between A and one B, before another B is taken.
 const WAYS: usize = 5;
 
-/// Fills the fibre over the parameters of a random figure.
+/// Fills the fibre over the parameters of a random figure: of equations without points first by total degree, in floats whatever
+/// `filling` says.
 ///
 /// Fails where no start figure can be made.
 pub fn fill(system: &System, filling: &Filling) -> Result<Fibre, String> {
