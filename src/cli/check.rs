@@ -2,7 +2,9 @@
 
 use super::{BAD_INPUT, CLOSED, OVER, input, output};
 use crate::report::names;
-use krawl::blocks::{Census, Finding, MOST_POINTS, Surplus, Why, clusters, pinned, surplus};
+use krawl::blocks::{
+    Account, Census, Finding, MOST_POINTS, Surplus, Why, clusters, pinned, surplus,
+};
 use krawl::edit::{Decomposition, Standing, TooMany};
 use krawl::import::{self, Format};
 use krawl::plan::Plan;
@@ -154,12 +156,9 @@ fn describe_sketches(file: &Path, sketch: Option<&str>) -> Result<(String, u8), 
     };
     text += &describe(problem, Some((&blocks, &census)));
     text += &surplus_in_words(&census);
-    if !imported.unsupported.is_empty() {
-        let _ = writeln!(
-            text,
-            "not supported: {}; so it cannot be edited",
-            input::unsupported(&imported)
-        );
+    let kept = Account::of(problem, 0).kept_in_words();
+    if !kept.is_empty() {
+        let _ = writeln!(text, "read {kept}");
     }
     text += "dimensions (for --set)\n";
     for index in problem.dimensions().filter(|&i| imported.has_number(i)) {

@@ -224,13 +224,6 @@ pub fn load_again(file: &Path, sketch: Option<&str>) -> Result<Loaded, String> {
         };
     }
     let (imported, bytes) = import(file, sketch)?;
-    if !imported.unsupported.is_empty() {
-        return Err(format!(
-            "{name}: {} has constraints that krawl has no kind for, and a figure would not keep them: {}",
-            imported.problem.name,
-            unsupported(&imported)
-        ));
-    }
     Ok(Loaded {
         problem: imported.problem.clone(),
         fault: None,
@@ -290,15 +283,6 @@ pub fn bytes(file: &Path) -> Result<Vec<u8>, String> {
         ));
     }
     std::fs::read(file).map_err(|e| format!("{name}: cannot be read: {e}"))
-}
-
-/// The kinds that krawl does not have, with their numbers.
-pub fn unsupported(imported: &Imported) -> String {
-    let kinds = imported.unsupported.iter();
-    let kinds: Vec<String> = kinds
-        .map(|(kind, count)| format!("{kind} ({count})"))
-        .collect();
-    kinds.join(", ")
 }
 
 impl Loaded {

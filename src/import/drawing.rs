@@ -5,7 +5,8 @@ use crate::constraint::KINDS;
 use crate::order::InOrder;
 use crate::places::Each as _;
 use crate::problem::{
-    Constraint, Decimal, Distance, HomotopyChoices, Item, Object, Point, Problem, Shape, Target,
+    Constraint, Decimal, Distance, HomotopyChoices, Item, Kept, Object, Point, Problem, Shape,
+    Target,
 };
 use crate::sets::Joined;
 use std::collections::BTreeMap;
@@ -25,7 +26,9 @@ pub struct Drawing {
     distances: Vec<(Distance, Option<Source>)>,
     constraints: Vec<(Constraint, Option<Source>)>,
     names: BTreeMap<Source, String>,
-    unsupported: BTreeMap<String, usize>,
+    kept: Kept,
+    /// Points and objects that stay where they are, and whether they are said to.
+    held: Vec<(Item, bool)>,
     /// Points of one place by constraint.
     joined: Joined,
     tangents: Vec<Tangent>,
@@ -117,9 +120,76 @@ impl Drawing {
         self.names.insert(source, name);
     }
 
-    /// A constraint that there is no kind for.
-    pub fn refuse(&mut self, kind: &str) {
-        *self.unsupported.entry(kind.to_owned()).or_default() += 1;
+    /// A constraint that there is no kind for: what it is of stays where it is.
+    pub fn keep(&mut self, source: Source, kind: &str, items: impl IntoIterator<Item = Item>) {
+        self.kept
+            .constraints
+            .extend(self.names.get(&source).cloned());
+        *self.kept.kinds.entry(kind.to_owned()).or_default() += 1;
+        self.held.extend(items.into_iter().map(|item| (item, true)));
+    }
+
+    /// What is of another object stays where it is.
+    pub fn fix(&mut self, item: Item) {
+        self.held.push((item, false));
+    }
+
+    /// An outline that there is no kind for, which stays as it is.
+    pub fn keep_outline(&mut self, kind: &str, name: String) {
+        *self.kept.kinds.entry(kind.to_owned()).or_default() += 1;
+        self.kept.what.push(name);
+    }
+
+    /// Holds what stays where it is.
+    fn hold(&mut self) {
+        for (item, is_said) in std::mem::take(&mut self.held) {
+            let (name, points) = match item {
+                Item::Point(p) => (&self.places[p].0, vec![p]),
+                Item::Object(o) => {
+                    let Object { name, shape } = &self.objects[o];
+                    let points = match *shape {
+                        Shape::Line(ends) => ends.to_vec(),
+                        Shape::Arc { center, start, .. } => vec![center, start],
+                        Shape::Round { center, .. } => vec![center],
+                        _ => Vec::new(),
+                    };
+                    (name, points)
+                }
+                Item::Axis(_) => continue,
+            };
+            if is_said {
+                if self.kept.what.contains(name) {
+                    continue;
+                }
+                self.kept.what.push(name.clone());
+            }
+            for p in points {
+                let is_fixed = |(c, _): &(Constraint, _)| {
+                    c.kind == "fixed"
+                        && matches!(c.items[0], Item::Point(q) if self.joined.of(q) == self.joined.of(p))
+                };
+                if !self.constraints.iter().any(is_fixed) {
+                    self.constrain(None, "fixed", vec![Item::Point(p)], None);
+                }
+            }
+            let Item::Object(o) = item else { continue };
+            match &self.objects[o].shape {
+                Shape::Round { radius, .. } => {
+                    let radius = radius.to_f64();
+                    self.constrain(None, "radii", vec![item], Some(radius));
+                }
+                // It is as far from the centre as the start is.
+                &Shape::Arc { center, end, .. } => {
+                    let ([cx, cy], [x, y]) = (self.at(center), self.at(end));
+                    let (key, value) = match (x - cx).abs() < (y - cy).abs() {
+                        true => ("x", x),
+                        false => ("y", y),
+                    };
+                    self.constrain(None, key, vec![Item::Point(end)], Some(value));
+                }
+                _ => {}
+            }
+        }
     }
 
     /// A constraint.
@@ -234,9 +304,19 @@ impl Drawing {
             {
                 continue;
             }
+            if let Shape::Line(ends) = *self.shape(edges[1])
+                && self.if_line(edges[0]).is_some()
+            {
+                for end in ends {
+                    let items = vec![Item::Point(end), Item::Object(edges[0])];
+                    self.constrain(Some(source), "on", items, None);
+                }
+                continue;
+            }
             let items = edges.each(Item::Object).to_vec();
             self.constrain(Some(source), "tangent", items, None);
         }
+        self.hold();
         self.snap();
         let order = |kind: &str| KINDS.iter().position(|k| k.key() == kind);
         self.constraints.order_by_key(|(c, _)| order(&c.kind));
@@ -276,10 +356,10 @@ impl Drawing {
             tolerances: Default::default(),
             measures: Vec::new(),
             parameters: Vec::new(),
+            kept: self.kept,
         };
         Imported {
             problem,
-            unsupported: self.unsupported,
             surplus: None,
             skeleton: None,
             notes: Vec::new(),

@@ -6,8 +6,10 @@
 //! to it by expressions follows.
 
 mod computed;
+mod elsewhere;
 mod formula;
 mod quantity;
+mod shape;
 
 use super::drawing::{Drawing, decimal};
 use super::{Figure, Followed, Follower, Imported, Listed, Places as AllPlaces, Tied};
@@ -16,8 +18,10 @@ use crate::order::InOrder;
 use crate::places::Each as _;
 use crate::problem::{Item, Point, Problem, Shape};
 use computed::{Evaluation, Numbers};
+use elsewhere::Shapes;
 use roxmltree::{Document, Node};
-use std::collections::HashMap;
+use shape::Outline;
+use std::collections::{HashMap, HashSet};
 use std::io::{Cursor, Read, Write};
 use std::ops::Range;
 use std::str::FromStr;
@@ -183,6 +187,51 @@ pub struct Places {
     pub computed: Numbers,
 }
 
+/// The angle of an arc's own x axis, and whether its angles are clockwise: about a normal downwards they begin at the left (`gp_Ax2`).
+fn turn_of(arc: Node) -> (f64, bool) {
+    let turned = number(arc, "AngleXU");
+    match number::<f64>(arc, "NormalZ") < 0.0 {
+        true => (std::f64::consts::PI - turned, true),
+        false => (turned, false),
+    }
+}
+
+/// What is drawn by an element, if that is of a kind that krawl has.
+fn outline(node: Node) -> Option<Outline> {
+    let at = |keys: [&str; 2]| keys.each(|key| number(node, key));
+    let radius: f64 = number(node, "Radius");
+    Some(match node.tag_name().name() {
+        "LineSegment" => Outline::Line([at(["StartX", "StartY"]), at(["EndX", "EndY"])]),
+        "GeomPoint" => Outline::Point(at(["X", "Y"])),
+        "Circle" => Outline::Circle {
+            center: at(CENTER),
+            radius,
+        },
+        "ArcOfCircle" => {
+            let (center, (turned, clockwise)) = (at(CENTER), turn_of(node));
+            let end = |key: &str| {
+                let angle: f64 = number(node, key);
+                let angle = if clockwise {
+                    turned - angle
+                } else {
+                    turned + angle
+                };
+                let [x, y] = center;
+                [x + radius * angle.cos(), y + radius * angle.sin()]
+            };
+            let [first, last] = ["StartAngle", "EndAngle"].map(end);
+            // FreeCAD's sketches have the start of an arc where it begins counter-clockwise.
+            let ends = if clockwise {
+                [last, first]
+            } else {
+                [first, last]
+            };
+            Outline::Arc { center, ends }
+        }
+        _ => return None,
+    })
+}
+
 struct Reader {
     drawing: Drawing,
     edges: HashMap<i64, Drawn>,
@@ -199,100 +248,80 @@ impl Reader {
         }
     }
 
-    /// A point of an edge, whose coordinates stand in these attributes; one of external geometry stays where it is.
-    fn point(&mut self, name: String, shape: Node, keys: [&str; 2], fixed: bool) -> usize {
-        let at = keys.each(|key| number(shape, key));
-        if fixed {
-            return self.drawing.fixed_point(name, at);
-        }
+    /// A point, whose coordinates stand in these attributes where it is of this sketch.
+    fn point(&mut self, name: String, at: [f64; 2], own: Option<(Node, [&str; 2])>) -> usize {
         let point = self.drawing.point(name, at);
-        for (axis, key) in keys.into_iter().enumerate() {
-            self.place(shape, key, Number::Coordinate(point, axis));
+        if let Some((shape, keys)) = own {
+            for (axis, key) in keys.into_iter().enumerate() {
+                self.place(shape, key, Number::Coordinate(point, axis));
+            }
         }
         point
     }
 
-    /// An end of an arc, which is not stored.
-    fn arc_end(&mut self, name: String, at: [f64; 2], fixed: bool) -> usize {
-        match fixed {
-            true => self.drawing.fixed_point(name, at),
-            false => self.drawing.point(name, at),
+    /// Reads one piece of geometry of this sketch, or one of another object that the sketch keeps.
+    fn read(&mut self, id: i64, geometry: Node) {
+        let kind = geometry.attribute("type").unwrap_or("");
+        let is_own = id >= 0;
+        let mut read = geometry
+            .children()
+            .filter(|_| kind.starts_with("Part::Geom"));
+        let read = read.find_map(|node| Some((node, outline(node)?)));
+        match read {
+            Some((node, outline)) => self.draw(id, outline, is_own.then_some(node)),
+            None => {
+                self.edges.insert(id, Drawn::Other);
+                if is_own {
+                    let kind = kind.trim_start_matches("Part::Geom");
+                    self.drawing.keep_outline(kind, format!("e{}", id + 1));
+                }
+            }
         }
     }
 
-    /// Reads one piece of geometry. External geometry stays where it is.
-    fn draw(&mut self, id: i64, geometry: Node) {
-        let fixed = id < 0;
-        let name = match fixed {
-            true => format!("external{}", -2 - id),
-            false => format!("e{}", id + 1),
+    /// Draws an outline; `own`: where its numbers stand, of this sketch. Geometry of other objects stays where it is.
+    fn draw(&mut self, id: i64, outline: Outline, own: Option<Node>) {
+        let name = match own {
+            None => format!("external{}", -2 - id),
+            Some(_) => format!("e{}", id + 1),
         };
-        let kind = geometry.attribute("type").unwrap_or("");
-        let shape = geometry.children().find(|n| {
-            matches!(
-                n.tag_name().name(),
-                "LineSegment" | "Circle" | "ArcOfCircle" | "GeomPoint"
-            )
-        });
-        let Some(shape) = shape.filter(|_| kind.starts_with("Part::Geom")) else {
-            self.edges.insert(id, Drawn::Other);
-            return;
-        };
-        let drawn = match shape.tag_name().name() {
-            "LineSegment" => {
-                let a = self.point(format!("{name}.start"), shape, ["StartX", "StartY"], fixed);
-                let b = self.point(format!("{name}.end"), shape, ["EndX", "EndY"], fixed);
+        let drawn = match outline {
+            Outline::Line([a, b]) => {
+                let start = own.map(|node| (node, ["StartX", "StartY"]));
+                let end = own.map(|node| (node, ["EndX", "EndY"]));
+                let a = self.point(format!("{name}.start"), a, start);
+                let b = self.point(format!("{name}.end"), b, end);
                 let object = self.drawing.line(name, [a, b]);
                 Drawn::Line {
                     ends: [a, b],
                     object,
                 }
             }
-            "GeomPoint" => Drawn::Point(self.point(name, shape, ["X", "Y"], fixed)),
-            "Circle" => {
-                let center = self.point(format!("{name}.center"), shape, CENTER, fixed);
-                let radius: f64 = number(shape, "Radius");
+            Outline::Point(at) => {
+                Drawn::Point(self.point(name, at, own.map(|node| (node, ["X", "Y"]))))
+            }
+            Outline::Circle { center, radius } => {
+                let own_center = own.map(|node| (node, CENTER));
+                let center = self.point(format!("{name}.center"), center, own_center);
                 let object = self.drawing.circle(name, center, radius);
-                if let Some(object) = object {
-                    if fixed {
-                        let items = vec![Item::Object(object)];
-                        self.drawing.constrain(None, "radii", items, Some(radius));
-                    } else {
-                        self.place(shape, "Radius", Number::Radius(object));
-                    }
+                if let (Some(object), Some(node)) = (object, own) {
+                    self.place(node, "Radius", Number::Radius(object));
                 }
                 Drawn::Circle { center, object }
             }
-            _ => {
-                let center = self.point(format!("{name}.center"), shape, CENTER, fixed);
-                let [x, y] = self.drawing.at(center);
-                let radius: f64 = number(shape, "Radius");
-                let turned: f64 = number(shape, "AngleXU");
-                let clockwise = number::<f64>(shape, "NormalZ") < 0.0;
-                let end = |key: &str| {
-                    let angle: f64 = number(shape, key);
-                    let angle = if clockwise {
-                        turned - angle
-                    } else {
-                        turned + angle
-                    };
-                    [x + radius * angle.cos(), y + radius * angle.sin()]
-                };
-                let ends = [end("StartAngle"), end("EndAngle")];
-                let a = self.arc_end(format!("{name}.start"), ends[0], fixed);
-                let b = self.arc_end(format!("{name}.end"), ends[1], fixed);
-                if !fixed {
-                    self.place(shape, "Radius", Number::Apart(center, a));
-                    self.place(
-                        shape,
-                        "StartAngle",
-                        Number::Angle(center, a, turned, clockwise),
-                    );
-                    self.place(
-                        shape,
-                        "EndAngle",
-                        Number::Angle(center, b, turned, clockwise),
-                    );
+            Outline::Arc { center, ends } => {
+                let own_center = own.map(|node| (node, CENTER));
+                let center = self.point(format!("{name}.center"), center, own_center);
+                // The ends are not stored.
+                let [a, b] = [("start", ends[0]), ("end", ends[1])]
+                    .map(|(which, at)| self.drawing.point(format!("{name}.{which}"), at));
+                if let Some(node) = own {
+                    let (turned, clockwise) = turn_of(node);
+                    let [first, last] = if clockwise { [b, a] } else { [a, b] };
+                    let angle = |end| Number::Angle(center, end, turned, clockwise);
+                    self.place(node, "Radius", Number::Apart(center, a));
+                    self.place(node, "StartAngle", angle(first));
+                    self.place(node, "EndAngle", angle(last));
                 }
                 let object = self.drawing.arc(name, [center, a, b]);
                 Drawn::Arc {
@@ -303,6 +332,10 @@ impl Reader {
             }
         };
         self.edges.insert(id, drawn);
+        if own.is_none() {
+            let items = self.items((id, 0));
+            items.into_iter().for_each(|item| self.drawing.fix(item));
+        }
     }
 
     /// The axes, when they are first asked for.
@@ -342,6 +375,29 @@ impl Reader {
             | Drawn::Circle { object, .. }
             | Drawn::Arc { object, .. } => object,
             _ => None,
+        }
+    }
+
+    /// What a constraint names of what is drawn: a point of an edge, or all of it.
+    fn items(&self, (id, position): (i64, i64)) -> Vec<Item> {
+        let point = |p: usize| vec![Item::Point(p)];
+        let (ends, center, object) = match self.edges.get(&id) {
+            None | Some(Drawn::Other) => return Vec::new(),
+            Some(Drawn::Point(p)) => return point(*p),
+            Some(&Drawn::Line { ends, object }) => (ends.to_vec(), None, object),
+            Some(&Drawn::Circle { center, object }) => (Vec::new(), Some(center), object),
+            Some(&Drawn::Arc {
+                center,
+                ends,
+                object,
+            }) => (ends.to_vec(), Some(center), object),
+        };
+        match (position, object) {
+            (1 | 2, _) if !ends.is_empty() => point(ends[position as usize - 1]),
+            (3, _) if center.is_some() => center.into_iter().map(Item::Point).collect(),
+            (_, Some(object)) => vec![Item::Object(object)],
+            // Too small to be an object.
+            (_, None) => center.into_iter().chain(ends).map(Item::Point).collect(),
         }
     }
 
@@ -396,11 +452,19 @@ impl Reader {
                 ("parallel", objects(lines))
             }
             5 if third.0 == NONE => return self.tangent(index, first, second),
-            6 if first.1 > 0 && second.1 <= 0 => {
-                let (p, l) = (self.point_of(first)?, self.line_of(second.0)?);
+            6 if has_second && second.1 <= 0 => {
+                let other = Item::Object(self.object_of(second.0)?);
                 said = (value != 0.0).then_some(value.abs());
-                let key = if said.is_none() { "on" } else { "distances" };
-                (key, vec![Item::Point(p), Item::Object(l)])
+                let (one, at_nothing) = match first.1 {
+                    0 => (Item::Object(self.object_of(first.0)?), "tangent"),
+                    _ => (Item::Point(self.point_of(first)?), "on"),
+                };
+                let key = if said.is_none() {
+                    at_nothing
+                } else {
+                    "distances"
+                };
+                (key, vec![one, other])
             }
             6 => {
                 let ends = match (first.1, second) {
@@ -427,25 +491,28 @@ impl Reader {
                 }
             }
             9 if third.0 == NONE => {
-                let one = self.line_of(first.0)?;
-                let other = self.line_of(if has_second { second.0 } else { -1 })?;
-                let degrees = degrees(value).abs() % 360.0;
-                let degrees = degrees.min(360.0 - degrees);
-                match degrees {
-                    0.0 | 180.0 => ("parallel", objects([one, other])),
-                    _ => {
-                        said = Some(degrees);
-                        let items = match has_second {
-                            // Away from the end that the constraint names.
-                            true => [
-                                self.drawing.directed(one, first.1 == 2),
-                                self.drawing.directed(other, second.1 == 2),
-                            ]
-                            .concat(),
-                            false => objects([one, other]),
-                        };
-                        ("angles", items)
-                    }
+                let degrees = degrees(value);
+                said = Some(degrees);
+                // Beyond 0 and 180 degrees the sense says which of two angles it is.
+                let is_between = degrees > 0.0 && degrees < 180.0;
+                let key = if is_between { "angles" } else { "turns" };
+                // How far an arc goes round, counter-clockwise.
+                if let (Drawn::Arc { center, ends, .. }, false) = (self.edge(first.0)?, has_second)
+                {
+                    (key, [ends[0], center, ends[1]].each(Item::Point).to_vec())
+                } else {
+                    let one = self.line_of(first.0)?;
+                    let other = self.line_of(if has_second { second.0 } else { -1 })?;
+                    let legs = match has_second {
+                        // Away from the end that the constraint names.
+                        true => [
+                            self.drawing.directed(one, first.1 == 2),
+                            self.drawing.directed(other, second.1 == 2),
+                        ]
+                        .concat(),
+                        false => objects([other, one]),
+                    };
+                    (key, legs)
                 }
             }
             10 if third.0 == NONE => return self.perpendicular(index, first, second),
@@ -521,9 +588,6 @@ impl Reader {
     fn tangent(&mut self, index: usize, first: (i64, i64), second: (i64, i64)) -> Option<()> {
         let edges = [self.object_of(first.0)?, self.object_of(second.0)?];
         if (first.1, second.1) == (0, 0) {
-            if self.are_lines(edges) == [true; 2] {
-                return None;
-            }
             self.drawing.touch(index, edges);
             return Some(());
         }
@@ -625,34 +689,9 @@ fn tied(imported: &Imported, numbers: &Numbers) -> Vec<Tied> {
     tied.collect()
 }
 
-/// How a dimension's number in the file goes with the one in the problem: its sign, and what is added to it.
-struct Sense(f64, f64);
-
-impl Sense {
-    /// By what both were as the file was read. Angles are in degrees, and where the file has one beyond 180 the problem has what is left of
-    /// 360.
-    fn new(said: f64, before: f64, is_angle: bool) -> Self {
-        let folded = said.abs() % 360.0;
-        match is_angle {
-            true => {
-                let sign = if folded > 180.0 {
-                    -said.signum()
-                } else {
-                    said.signum()
-                };
-                Sense(sign, said - sign * before)
-            }
-            false => Sense(if said * before < 0.0 { -1.0 } else { 1.0 }, 0.0),
-        }
-    }
-
-    fn in_file(&self, value: f64) -> f64 {
-        self.1 + self.0 * value
-    }
-
-    fn in_problem(&self, said: f64) -> f64 {
-        self.0 * (said - self.1)
-    }
+/// The sign of a dimension's number in the file against the one in the problem, by what both were as the file was read.
+fn sign(said: f64, before: f64) -> f64 {
+    if said * before < 0.0 { -1.0 } else { 1.0 }
 }
 
 /// What follows by the file's expressions where these dimensions, and cells, are set, and all others are as in `now`.
@@ -662,15 +701,15 @@ pub fn followed(imported: &Imported, places: &Places, now: &Problem, set: &[Sett
     let is_tied = |index: usize| imported.tied.iter().any(|tied| tied.index == index);
     let mut then = now.clone();
     set.iter().for_each(|setting| setting.apply(&mut then));
-    let sense = |index: usize| {
+    let signed = |index: usize| {
         let said = numbers.said(imported.sources[index]?)?;
         let before = super::value(before, index);
-        Some((said, Sense::new(said.value, before, said.is_angle())))
+        Some((said, sign(said.value, before)))
     };
     let given = before.dimensions().filter(|&i| is_set(i) || !is_tied(i));
     let given = given.filter_map(|index| {
-        let (said, sense) = sense(index)?;
-        let number = said.with(sense.in_file(super::value(&then, index)));
+        let (said, sign) = signed(index)?;
+        let number = said.with(sign * super::value(&then, index));
         Some((imported.sources[index]?, number, is_set(index)))
     });
     let mut evaluation = Evaluation::new(numbers, given);
@@ -699,15 +738,13 @@ pub fn followed(imported: &Imported, places: &Places, now: &Problem, set: &[Sett
         };
         let why = match (
             value,
-            index.and_then(|index| Some((index, sense(index)?.1))),
+            index.and_then(|index| Some((index, signed(index)?.1))),
         ) {
-            (None, Some((index, sense))) => {
+            (None, Some((index, sign))) => {
                 // Set by hand before, perhaps.
                 let here = super::value(now, index);
                 let by_it = evaluation.number(source);
-                let by_it = by_it
-                    .ok()
-                    .and_then(|value| decimal(sense.in_problem(value.value)));
+                let by_it = by_it.ok().and_then(|value| decimal(sign * value.value));
                 if let Some(by_it) = by_it.filter(|by_it| !computed::is_same(by_it.to_f64(), here))
                 {
                     followed.warnings.push(format!(
@@ -717,8 +754,8 @@ pub fn followed(imported: &Imported, places: &Places, now: &Problem, set: &[Sett
                 continue;
             }
             (None, None) => continue,
-            (Some(Ok(value)), Some((index, sense))) => {
-                if let Some(value) = decimal(sense.in_problem(value.value)) {
+            (Some(Ok(value)), Some((index, sign))) => {
+                if let Some(value) = decimal(sign * value.value) {
                     let expression = expression.to_owned();
                     followed.set.push(Follower {
                         index,
@@ -765,7 +802,7 @@ pub fn read(bytes: &[u8], index: usize) -> Result<Imported, String> {
         size: 1.0,
     };
     for (id, geometry) in own.iter().enumerate() {
-        reader.draw(id as i64, *geometry);
+        reader.read(id as i64, *geometry);
     }
     let places = reader
         .numbers
@@ -775,9 +812,31 @@ pub fn read(bytes: &[u8], index: usize) -> Result<Imported, String> {
     if far > 0.0 {
         reader.size = 2f64.powi(far.log2().round() as i32);
     }
-    // The first two are the axes.
-    for (at, geometry) in geometry(object, "ExternalGeo").iter().enumerate().skip(2) {
-        reader.draw(-1 - at as i64, *geometry);
+    // Of other objects what constraints name; the first two that are kept are the axes.
+    let named: HashSet<i64> = constraints(object)
+        .into_iter()
+        .filter(|c| is_driving(*c))
+        .flat_map(|c| ["First", "Second", "Third"].map(|side| whole(c, side)))
+        .collect();
+    let kept = geometry(object, "ExternalGeo").into_iter().enumerate();
+    for (at, geometry) in kept.skip(2) {
+        let id = -1 - at as i64;
+        if named.contains(&id) {
+            reader.read(id, geometry);
+        }
+    }
+    if property(object, "ExternalGeo").is_none() {
+        let shapes = Shapes::new(&document, bytes);
+        for (k, link) in listed(object, "ExternalGeometry", "Link")
+            .into_iter()
+            .enumerate()
+        {
+            let id = -3 - k as i64;
+            let seen = named.contains(&id).then(|| shapes.seen(object, link));
+            if let Some(outline) = seen.flatten() {
+                reader.draw(id, outline, None);
+            }
+        }
     }
     let mut values = Vec::new();
     for (index, node) in constraints(object).into_iter().enumerate() {
@@ -790,18 +849,19 @@ pub fn read(bytes: &[u8], index: usize) -> Result<Imported, String> {
         }
         reader.drawing.name(index, constraint_name(index, node));
         if reader.constraint(index, node).is_none() {
-            let external = ["First", "Second", "Third"].iter().any(|side| {
-                let id = whole(node, side);
-                id <= -3 && id != NONE && !reader.edges.contains_key(&id)
-            });
+            let sides = ["First", "Second", "Third"];
+            let sides = sides.map(|side| (whole(node, side), whole(node, &format!("{side}Pos"))));
+            let is_elsewhere =
+                |(id, _): &(i64, i64)| *id <= -3 && *id != NONE && !reader.edges.contains_key(id);
             let kind = kind_name(whole(node, "Type"));
-            let kind = match external {
-                true => {
-                    format!("{kind} (on geometry of another object, which the file does not store)")
-                }
+            let kind = match sides.iter().any(is_elsewhere) {
+                true => format!("{kind} to another object"),
                 false => kind,
             };
-            reader.drawing.refuse(&kind);
+            let own = sides.into_iter().filter(|(id, _)| *id >= 0);
+            let items = own.flat_map(|side| reader.items(side));
+            let items: Vec<Item> = items.collect();
+            reader.drawing.keep(index, &kind, items);
         }
     }
     let computed = Numbers::read(&document, &name);
@@ -870,13 +930,7 @@ pub fn rewrite(
             .get(range.clone())
             .and_then(|x| x.parse().ok())
             .unwrap_or(f64::NAN);
-        let said = if changed.is_angle {
-            degrees(said)
-        } else {
-            said
-        };
-        let sense = Sense::new(said, changed.before, changed.is_angle);
-        let value = sense.in_file(changed.value);
+        let value = sign(said, changed.before) * changed.value;
         let value = if changed.is_angle {
             value.to_radians()
         } else {

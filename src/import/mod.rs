@@ -2,8 +2,8 @@
 //! `.mol`, `.sdf`, `.pdb`), robots (`.urdf`) and systems of polynomials, which become problem files.
 //!
 //! A file may hold several sketches; [`list`] says which, and [`read`] takes one. What it says becomes a
-//! [`Problem`] in the sketch's own frame, with the kinds of constraints that krawl has. A kind that krawl does not
-//! have is counted in [`Imported::unsupported`], by its own program's name; nothing is left out in silence.
+//! [`Problem`] in the sketch's own frame, with the kinds of constraints that krawl has. What a constraint of a
+//! kind that krawl does not have is of stays where it is ([`Problem::kept`] names it); nothing is left out in silence.
 //!
 //! The problem is what the file says and no more: it may be under-constrained, or say a thing twice. Edits take it
 //! as it is ([`crate::edit::Session`] says what it held and what it left out).
@@ -20,7 +20,7 @@
 //! use krawl::import;
 //! let bytes = std::fs::read("problems/sketches/bracket.slvs")?;
 //! let bracket = import::read("bracket.slvs", &bytes, None)?;
-//! assert!(bracket.unsupported.is_empty());
+//! assert!(bracket.problem.kept.what.is_empty());
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
@@ -37,7 +37,6 @@ use crate::complete::Surplus;
 use crate::edit::Setting;
 use crate::problem::{Decimal, Problem};
 pub use molecule::{Conformer, Skeleton};
-use std::collections::BTreeMap;
 
 /// The largest file that is read, in bytes.
 pub const MAX_SIZE: usize = 256 << 20;
@@ -93,8 +92,6 @@ pub struct Listed {
 pub struct Imported {
     /// What the sketch says; its labels are what constraints are called in their own program. It need not have as many equations as unknowns, and has not been checked for that.
     pub problem: Problem,
-    /// Kinds of constraints (and of outlines that constraints need) that krawl does not have, with their numbers.
-    pub unsupported: BTreeMap<String, usize>,
     /// Of a molecule: the distances of bonds and bond angles that [`Imported::problem`] has not, and what it has in place of such.
     pub surplus: Option<Surplus>,
     /// Of a molecule: its atoms and bonds.
@@ -390,7 +387,8 @@ fn changed(imported: &Imported, now: &Problem) -> impl Iterator<Item = Result<Ch
         })?;
         let constraint = index.checked_sub(now.distances.len());
         Ok(Changed {
-            is_angle: constraint.is_some_and(|c| now.constraints[c].kind == "angles"),
+            is_angle: constraint
+                .is_some_and(|c| matches!(&now.constraints[c].kind[..], "angles" | "turns")),
             source,
             value: value(now, index),
             before: value(before, index),

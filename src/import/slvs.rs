@@ -427,7 +427,11 @@ impl<'a> Reader<'a> {
                 .drawing
                 .name(index, format!("c{:03x}", record.handle()));
             if reader.constraint(index).is_none() {
-                reader.drawing.refuse(&kind_name(record.whole("type")));
+                let named = ["ptA", "ptB", "entityA", "entityB", "entityC", "entityD"];
+                let named = named.map(|key| record.hex(&format!("{key}.v")));
+                let items: Vec<Item> = named.into_iter().flat_map(|h| reader.items(h)).collect();
+                let kind = kind_name(record.whole("type"));
+                reader.drawing.keep(index, &kind, items);
             }
         }
         reader
@@ -509,6 +513,22 @@ impl<'a> Reader<'a> {
         };
         self.objects.insert(handle, object);
         Some(object)
+    }
+
+    /// What of this sketch an entity is: a point, a line, a circle or an arc, or else the points of an outline of another kind.
+    fn items(&self, handle: Handle) -> Vec<Item> {
+        let own = self.contents.request(handle, self.group);
+        let Some(entity) = own.and_then(|_| self.contents.entity(handle)) else {
+            return Vec::new();
+        };
+        let point = |handle: Handle| self.points.get(&handle).copied().map(Item::Point);
+        let object = self.objects.get(&handle).copied().map(Item::Object);
+        match object.or_else(|| point(handle)) {
+            Some(item) => vec![item],
+            None => (0..12)
+                .filter_map(|k| point(entity.hex(&format!("point[{k}].v"))))
+                .collect(),
+        }
     }
 
     /// A line that stays where it is.

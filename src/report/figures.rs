@@ -92,6 +92,7 @@ fn claim_in_words(figures: &Figures) -> String {
         None => "more than 2^64 figures meet".to_owned(),
     };
     let all = match figures.meets_all() {
+        true if !figures.account().kept.is_empty() => "all constraints that are read",
         true => "all constraints",
         false => "all constraints but those named below",
     };
@@ -167,6 +168,10 @@ fn provided(figures: &Figures) -> String {
         0 => {}
         1 => with.push(format!("{} held where it is drawn", held[0])),
         _ => with.push(format!("{} held where they are drawn", list(&held, LISTED))),
+    }
+    let kept = figures.account().kept_in_words();
+    if let Some(kept) = kept.strip_prefix("with ") {
+        with.push(kept.to_owned());
     }
     if figures.keeps_directions() {
         with.push("distances along an axis, and lengths of lines along one, in the direction that they have in the sketch".to_owned());

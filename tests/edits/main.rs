@@ -10,6 +10,8 @@ mod edit;
 mod edit_mixed;
 #[cfg(feature = "freecad")]
 mod expressions;
+#[cfg(feature = "freecad")]
+mod freecad_files;
 mod measures;
 mod motion;
 mod not_square;

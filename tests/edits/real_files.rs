@@ -10,15 +10,15 @@ use krawl::track::{Control, StopKind};
 use std::path::PathBuf;
 
 /// A sketch of a file, in whatever format.
-struct File {
+pub struct File {
     name: String,
     bytes: Vec<u8>,
     imported: Option<Imported>,
-    problem: Problem,
+    pub problem: Problem,
 }
 
 impl File {
-    fn new(name: &str, bytes: Vec<u8>, sketch: Option<&str>) -> Self {
+    pub fn new(name: &str, bytes: Vec<u8>, sketch: Option<&str>) -> Self {
         let imported = match name.ends_with("toml") {
             true => None,
             false => Some(import::read(name, &bytes, sketch).unwrap()),
@@ -41,7 +41,7 @@ impl File {
     }
 
     /// The file after an edit, read again.
-    fn edited(&self, set: &str) -> Self {
+    pub fn edited(&self, set: &str) -> Self {
         let mut session = Session::open(&self.problem).unwrap();
         let setting = [Setting::parse(&self.problem, set).unwrap()];
         let edited = session.edit(&setting);
@@ -79,7 +79,7 @@ impl File {
         Session::open(&self.problem).unwrap().figure()
     }
 
-    fn at(&self, point: &str) -> [f64; 2] {
+    pub fn at(&self, point: &str) -> [f64; 2] {
         let p = self.problem.points.iter().position(|p| p.name == point);
         let [x, y, _] = self.figure()[p.unwrap()];
         [x, y]
@@ -318,7 +318,16 @@ fn distances_in_space_and_sketches_without_an_active_plane_are_read() {
     assert!(in_space != text && without != text);
     for text in [in_space, without] {
         let other = File::new("bracket.slvs", text.into_bytes(), None);
-        assert!(other.imported.as_ref().unwrap().unsupported.is_empty());
+        assert!(
+            other
+                .imported
+                .as_ref()
+                .unwrap()
+                .problem
+                .kept
+                .kinds
+                .is_empty()
+        );
         assert_eq!(file.problem.distances, other.problem.distances);
         assert!(
             apart(
@@ -559,7 +568,7 @@ fn edits_go_back_and_do_not_depend_on_their_steps() {
         let bytes = std::fs::read(folder.join(name)).unwrap();
         for listed in import::list(name, &bytes).unwrap() {
             let read = import::read(name, &bytes, Some(&listed.name)).unwrap();
-            if read.unsupported.is_empty() {
+            if read.problem.kept.kinds.is_empty() {
                 sketches.push(read.problem);
             }
         }
@@ -597,7 +606,7 @@ fn edits_of_many_sketches_go_back() {
             let Ok(read) = import::read(&name, &bytes, Some(&listed.name)) else {
                 continue;
             };
-            if !read.unsupported.is_empty() || read.problem.objects.len() > 60 {
+            if !read.problem.kept.kinds.is_empty() || read.problem.objects.len() > 60 {
                 continue;
             }
             let (count, wrong) = there_and_back(&read.problem, &[1.07, 0.9, 2.5, 0.2, -0.5]);

@@ -88,8 +88,8 @@ fn real_sketches_load_and_survive_edits() {
                 continue;
             }
             count.sketches += 1;
-            if !sketch.unsupported.is_empty() {
-                for (kind, n) in &sketch.unsupported {
+            if !sketch.problem.kept.kinds.is_empty() {
+                for (kind, n) in &sketch.problem.kept.kinds {
                     *unsupported.entry(kind.clone()).or_default() += n;
                 }
                 continue;

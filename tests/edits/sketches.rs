@@ -43,7 +43,7 @@ fn apart(session: &Session, a: &str, b: &str) -> f64 {
 #[test]
 fn a_solvespace_sketch_is_edited_and_given_back() {
     let (sketch, bytes) = read(BRACKET, None);
-    assert!(sketch.unsupported.is_empty());
+    assert!(sketch.problem.kept.kinds.is_empty());
     let mut session = Session::open(&sketch.problem).unwrap();
     assert!(session.moved().distance < 1e-9, "{:?}", session.moved());
     assert!(session.account().held.is_empty() && session.account().meets_all());
@@ -137,7 +137,11 @@ fn freecad_sketches_are_edited_and_given_back() {
         ("Frame", "lean=95.5", ["e2.start", "e2.end"], 40.0),
     ] {
         let (sketch, bytes) = read(PARTS, Some(name));
-        assert!(sketch.unsupported.is_empty(), "{:?}", sketch.unsupported);
+        assert!(
+            sketch.problem.kept.kinds.is_empty(),
+            "{:?}",
+            sketch.problem.kept.kinds
+        );
         let mut session = Session::open(&sketch.problem).unwrap();
         assert!(
             session.moved().distance < 1e-9,
@@ -179,7 +183,9 @@ fn kinds_that_are_not_supported_are_named() {
     let text = text.replacen("Constraint.type=90", "Constraint.type=51", 1);
     let sketch = import::read(BRACKET, text.as_bytes(), None).unwrap();
     let kinds: Vec<(&str, usize)> = sketch
-        .unsupported
+        .problem
+        .kept
+        .kinds
         .iter()
         .map(|(k, n)| (k.as_str(), *n))
         .collect();
@@ -358,7 +364,11 @@ fn planes_ratios_differences_and_projections_are_edited() {
         ),
     ]);
     let sketch = import::read(BRACKET, text.as_bytes(), None).unwrap();
-    assert!(sketch.unsupported.is_empty(), "{:?}", sketch.unsupported);
+    assert!(
+        sketch.problem.kept.kinds.is_empty(),
+        "{:?}",
+        sketch.problem.kept.kinds
+    );
     let mut session = Session::open(&sketch.problem).unwrap();
     assert!(session.moved().distance < 1e-6, "{:?}", session.moved());
     for (setting, written) in [
@@ -391,12 +401,12 @@ fn equal_angles_and_planes_are_read_where_they_are_certain() {
         );
         let text = bracket_with(&[("11", &lines)]);
         let sketch = import::read(BRACKET, text.as_bytes(), None).unwrap();
-        assert_eq!(sketch.unsupported.is_empty(), is_read);
+        assert_eq!(sketch.problem.kept.kinds.is_empty(), is_read);
         assert_eq!(
-            sketch.unsupported.contains_key("EQUAL_ANGLE"),
+            sketch.problem.kept.kinds.contains_key("EQUAL_ANGLE"),
             !is_read,
             "{:?}",
-            sketch.unsupported
+            sketch.problem.kept.kinds
         );
         if is_read {
             let mut session = Session::open(&sketch.problem).unwrap();
@@ -438,7 +448,11 @@ fn equal_angles_and_planes_are_read_where_they_are_certain() {
         ),
     ]);
     let sketch = import::read(BRACKET, text.as_bytes(), None).unwrap();
-    assert!(sketch.unsupported.is_empty(), "{:?}", sketch.unsupported);
+    assert!(
+        sketch.problem.kept.kinds.is_empty(),
+        "{:?}",
+        sketch.problem.kept.kinds
+    );
     let kinds = |kind: &str| {
         let all = sketch.problem.constraints.iter();
         all.filter(|c| c.kind == kind).count()
@@ -448,7 +462,7 @@ fn equal_angles_and_planes_are_read_where_they_are_certain() {
     let zero = "type=34 ptA.v=00080001 ptB.v=00040002 entityA.v=00020020";
     let text = bracket_with(&[("0d", zero)]);
     let sketch = import::read(BRACKET, text.as_bytes(), None).unwrap();
-    assert!(sketch.unsupported.contains_key("PROJ_PT_DISTANCE"));
+    assert!(sketch.problem.kept.kinds.contains_key("PROJ_PT_DISTANCE"));
 }
 
 /// A constraint further down the file names a point of another group that is far away: coordinates that are made equal
@@ -466,8 +480,8 @@ fn points_that_are_read_late_count_for_what_is_certain() {
         );
         let text = format!("{text}\n{far}");
         let sketch = import::read(BRACKET, text.as_bytes(), None).unwrap();
-        assert!(!sketch.unsupported.contains_key("POINTS_COINCIDENT"));
-        sketch.unsupported.contains_key("EQUAL_ANGLE")
+        assert!(!sketch.problem.kept.kinds.contains_key("POINTS_COINCIDENT"));
+        sketch.problem.kept.kinds.contains_key("EQUAL_ANGLE")
     };
     assert!(!read("60.0"));
     assert!(read("1000000.0"));

@@ -433,7 +433,6 @@ pub fn read(bytes: &[u8], format: Format, index: usize) -> Result<Imported, Stri
         notes: molecule.notes,
         tied: Vec::new(),
         problem,
-        unsupported: BTreeMap::new(),
         surplus,
         skeleton: Some(Skeleton::new(&symbols, &places, &bonds)),
         places: AllPlaces::Molecule(Places {

@@ -28,6 +28,12 @@ pub struct Account {
     pub left_out: Vec<LeftOut>,
     /// The coordinates (or radii, directions) that are held because nothing determines them.
     pub held: Vec<Held>,
+    /// What is left as it is in the file of another program.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub kept: Vec<String>,
+    /// Because of what, each with its number: `Ellipse (2)`.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub without_a_kind: Vec<String>,
     /// How often on the way equations and what is held were chosen anew: each of `held` is then held on a part of the way, and
     /// a constraint may be left out on a part of it.
     #[serde(skip_serializing_if = "is_zero")]
@@ -126,6 +132,17 @@ impl Verdict {
 }
 
 impl Account {
+    /// Of a figure of this problem, in so many equations, with what its file keeps as it is.
+    pub fn of(problem: &Problem, equations: usize) -> Self {
+        let kinds = problem.kept.kinds.iter();
+        Account {
+            equations,
+            kept: problem.kept.what.clone(),
+            without_a_kind: kinds.map(|(kind, n)| format!("{kind} ({n})")).collect(),
+            ..Account::default()
+        }
+    }
+
     /// Notes a constraint that was left out. A constraint may have several equations: what is worst of them counts.
     pub fn leave_out(&mut self, name: String, verdict: Verdict) {
         let why = match verdict {
@@ -169,6 +186,10 @@ impl Account {
                 self.held.push(held.clone());
             }
         }
+        if self.kept.is_empty() {
+            self.kept.clone_from(&other.kept);
+            self.without_a_kind.clone_from(&other.without_a_kind);
+        }
         self.equations = self.equations.max(other.equations);
         self.chosen_anew = self.chosen_anew.max(other.chosen_anew);
     }
@@ -182,7 +203,7 @@ impl Account {
 
     /// Whether the claim is about the figure as it is: nothing is held or added, and what was left out follows, proved.
     pub fn is_whole(&self) -> bool {
-        self.held.is_empty() && self.added.is_empty() && self.meets_all()
+        self.held.is_empty() && self.added.is_empty() && self.kept.is_empty() && self.meets_all()
     }
 
     /// Whether all constraints are proved to be met: none was left out but those that follow from the others.
@@ -210,6 +231,21 @@ impl Account {
             }
             [one] => format!("with {} held where it is", one.what),
             _ => format!("with {} held where they are", list(&self.names_held())),
+        }
+    }
+
+    /// What stays as it is in the file, and why: `with e7 left as it is because of Ellipse (1), which krawl has no kind for`; empty where nothing does.
+    pub fn kept_in_words(&self) -> String {
+        let kinds = list(&self.without_a_kind);
+        match self.kept.as_slice() {
+            [] => String::new(),
+            [one] => {
+                format!("with {one} left as it is because of {kinds}, which krawl has no kind for")
+            }
+            all => format!(
+                "with {} left as they are because of {kinds}, which krawl has no kind for",
+                list(all)
+            ),
         }
     }
 
@@ -294,7 +330,10 @@ impl Account {
             true => String::new(),
             false => format!("among them {}", list(&self.added)),
         };
-        joined([used, added, self.held_in_words()], ", ")
+        joined(
+            [used, added, self.held_in_words(), self.kept_in_words()],
+            ", ",
+        )
     }
 
     /// All of it as one clause: [`Account::scope`], and what was left out.

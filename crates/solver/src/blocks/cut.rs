@@ -282,7 +282,7 @@ impl Cut {
         value: impl Fn(usize) -> Interval,
         verdict: impl Fn(usize) -> Verdict,
     ) -> Account {
-        let mut account = Account::default();
+        let mut account = Account::of(&self.problem, 0);
         for used in &self.used {
             match *used {
                 Used::Row(_) => account.equations += 1,

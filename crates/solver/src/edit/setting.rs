@@ -36,6 +36,11 @@ pub enum SettingError {
         /// Those that there are, shortened.
         known: String,
     },
+    /// A constraint of another program's file of which there is no kind here.
+    #[error(
+        "`{0}` is a constraint that krawl has no kind for: what it is of stays as it is in the file"
+    )]
+    Kept(String),
     /// A constraint that has no number.
     #[error(
         "`{name}` is a constraint without a number, `{kind}`: there is nothing to set; dimensions are {known}"
@@ -453,6 +458,9 @@ fn find(problem: &Problem, name: &str) -> Result<usize, SettingError> {
                     .clone(),
                 known,
             },
+            None if problem.kept.constraints.iter().any(|kept| kept == name) => {
+                SettingError::Kept(short)
+            }
             None => SettingError::Unknown { name: short, known },
         }
     })

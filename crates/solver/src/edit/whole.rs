@@ -132,10 +132,7 @@ impl Whole {
 
     /// What a claim is proved of: as many equations as unknowns, all of them.
     pub fn scope(&self) -> Account {
-        Account {
-            equations: self.arcs.homotopy().equations,
-            ..Account::default()
-        }
+        Account::of(&self.problem, self.arcs.homotopy().equations)
     }
 
     /// What an edit would come to; the figure stays what it is.

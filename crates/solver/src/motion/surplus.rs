@@ -89,10 +89,7 @@ pub(super) fn account(
     round: &Round,
     control: &Control,
 ) -> Account {
-    let mut account = Account {
-        equations: round.equations(),
-        ..Account::default()
-    };
+    let mut account = Account::of(problem, round.equations());
     let unit = typical_length(problem);
     for &index in left_out {
         let distance = &problem.distances[index];

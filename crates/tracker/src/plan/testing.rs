@@ -79,6 +79,7 @@ pub fn rigid(dimension: usize, points: std::ops::Range<usize>) -> impl Strategy<
                 tolerances: Default::default(),
                 measures: Vec::new(),
                 parameters: Vec::new(),
+                kept: Default::default(),
                 name: "random".into(),
                 dimension,
                 source: String::new(),

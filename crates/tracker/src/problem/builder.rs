@@ -433,6 +433,7 @@ impl ProblemBuilder {
             tolerances: Default::default(),
             measures: Vec::new(),
             parameters: Vec::new(),
+            kept: Default::default(),
             name: self.name,
             dimension: self.dimension,
             source: self.source,

@@ -23,8 +23,8 @@ pub use crate::decimal::{Decimal, DecimalError};
 #[doc(hidden)]
 pub use crate::statement::most_along;
 pub use crate::statement::{
-    AXES, Atom, Constraint, DEPENDS, Distance, Formula, HomotopyChoices, Item, JointSort, Object,
-    Orientation, Point, Pose, Problem, Shape, Target, Terms, Tolerances, free_coordinates,
+    AXES, Atom, Constraint, DEPENDS, Distance, Formula, HomotopyChoices, Item, JointSort, Kept,
+    Object, Orientation, Point, Pose, Problem, Shape, Target, Terms, Tolerances, free_coordinates,
 };
 #[doc(hidden)]
 pub use crate::statement::{counted, either, list};

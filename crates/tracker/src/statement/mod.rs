@@ -54,6 +54,19 @@ pub struct Problem {
     pub measures: Vec<(String, String)>,
     /// The parameters that the file gives, by which [computed numbers](Decimal::expression) of constraints were computed.
     pub parameters: Vec<(String, Decimal)>,
+    /// What is left as it is in a sketch of another program.
+    pub kept: Kept,
+}
+
+/// What stays as the file of another program has it, because that says something of it which no kind of constraint or object here does.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Kept {
+    /// Points and edges, as results name them.
+    pub what: Vec<String>,
+    /// The names of the constraints, of which none is a constraint here.
+    pub constraints: Vec<String>,
+    /// What krawl has no kind for, by that program's name, and how often.
+    pub kinds: BTreeMap<String, usize>,
 }
 
 /// How far dimensions may be from what is given.

@@ -1,0 +1,108 @@
+//! Sketches that FreeCAD made and solved (tests/data/freecad/make.py): after an edit figures are where FreeCAD has them.
+
+use crate::real_files::File;
+use krawl::edit::{Asked, Ending, Session, Setting, SettingError};
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+fn folder() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/data/freecad")
+}
+
+fn sketch(name: &str) -> File {
+    let bytes = std::fs::read(folder().join(name)).unwrap();
+    File::new(name, bytes, Some("Sketch"))
+}
+
+/// Angles below 0 and above 180 degrees, of 0, and of arcs, go by FreeCAD's numbers; edges of other objects are where FreeCAD sees them in
+/// the sketch's plane; what is beside an ellipse can be edited.
+#[test]
+fn edits_lead_where_freecad_leads() {
+    type Places = BTreeMap<String, [f64; 2]>;
+    let seen = std::fs::read_to_string(folder().join("seen.json")).unwrap();
+    let seen: BTreeMap<String, BTreeMap<String, Places>> = serde_json::from_str(&seen).unwrap();
+    let mut count = 0;
+    for (name, settings) in seen {
+        let file = sketch(&format!("{name}.FCStd"));
+        for (setting, places) in settings {
+            let edited = file.edited(&setting);
+            for (point, [x, y]) in places {
+                let [u, v] = edited.at(&point);
+                assert!(
+                    (u - x).abs() < 1e-6 && (v - y).abs() < 1e-6,
+                    "{name} {setting}: {point} is at {u} {v}, not {x} {y}"
+                );
+                count += 1;
+            }
+            // What is written is what was set.
+            let (dimension, value) = setting.split_once('=').unwrap();
+            let index = Setting::find(&edited.problem, dimension).unwrap();
+            let now = Session::open(&edited.problem).unwrap().length(index);
+            assert!((now.mid() - value.parse::<f64>().unwrap()).abs() < 1e-9);
+        }
+    }
+    assert_eq!(count, 140);
+}
+
+#[test]
+fn what_has_no_kind_stays_and_is_named() {
+    let file = sketch("kept.FCStd");
+    let kept = &file.problem.kept;
+    assert_eq!(
+        kept.what,
+        ["e5", "e11", "e6", "e7", "e8", "e9", "e10.start"]
+    );
+    let kinds: Vec<_> = kept.kinds.iter().map(|(kind, n)| (&kind[..], *n)).collect();
+    let wanted = [
+        ("BSplineCurve", 1),
+        ("DistanceX", 1),
+        ("Ellipse", 1),
+        ("InternalAlignment", 4),
+        ("PointOnObject", 1),
+    ];
+    assert_eq!(kinds, wanted);
+    let mut session = Session::open(&file.problem).unwrap();
+    let before = session.figure();
+    let edited = session.edit(&[Setting::parse(&file.problem, "l=14").unwrap()]);
+    assert_eq!(edited.ending, Ending::Reached);
+    let words = edited.account.clause();
+    assert!(
+        words.contains("e10.start left as they are because of"),
+        "{words}"
+    );
+    assert!(!edited.account.is_whole());
+    let at = |name: &str| file.problem.points.iter().position(|p| p.name == name);
+    for name in ["e6.start", "e7.end", "e8", "e10.start"] {
+        let p = at(name).unwrap();
+        assert_eq!(session.figure()[p], before[p], "{name}");
+    }
+    let end = at("e10.end").unwrap();
+    assert!((session.figure()[end][0] - before[end][0] - 2.0).abs() < 1e-9);
+    let problem = &file.problem;
+    let unknown = Setting::find(problem, "middle").unwrap_err();
+    assert_eq!(unknown, SettingError::Kept("middle".to_owned()));
+}
+
+/// FreeCAD's numbers are read, set and written in its own sense: −35 to −50 is no way through 0.
+#[test]
+fn angles_keep_the_signs_of_the_file() {
+    let file = sketch("angles.FCStd");
+    let asked = Asked::new(&file.problem, &[("down", "-50"), ("wide", "200")]).unwrap();
+    assert!(asked.in_words(&file.problem).is_empty());
+    let number = |name: &str| {
+        let index = Setting::find(&file.problem, name).unwrap();
+        let constraint = &file.problem.constraints[index - file.problem.distances.len()];
+        (
+            constraint.kind.clone(),
+            constraint.value.clone().unwrap().to_string(),
+        )
+    };
+    for (name, value) in [
+        ("down", "-35"),
+        ("wide", "190"),
+        ("level", "0"),
+        ("round", "200"),
+    ] {
+        assert_eq!(number(name), ("turns".to_owned(), value.to_owned()));
+    }
+}
