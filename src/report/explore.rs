@@ -2,7 +2,7 @@
 
 use super::columns::{DIGITS, write_digits, written};
 use super::document::{
-    self, Counts, Document, Drawing, FigureFound, Fold, From, PathFollowed, Points, Publication,
+    self, Counts, Document, Drawing, FigureFound, Fold, Origin, PathFollowed, Points, Publication,
     Sample, Verb, points,
 };
 use crate::explore::{Class, End, Explorer, Finish, intervals};
@@ -145,7 +145,7 @@ impl Explored<'_> {
             status: path.end.name().to_owned(),
             from: sketch
                 .from
-                .map(|(solution, branch)| From { solution, branch }),
+                .map(|(solution, branch)| Origin { solution, branch }),
             sketch: Points::each(problem, &places, |x| x + 0.0),
             bend: problem.distance_name(way.bend),
             bend_coefficient: way.coefficient.to_string(),

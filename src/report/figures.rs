@@ -1,6 +1,7 @@
 //! The figures of a sketch in its own frame, as its blocks give them.
 
 use super::columns::{DIGITS, written};
+use super::document::SensesOf;
 use super::edit::{behind, write_numbers, write_points};
 use super::supposed::{signs_not_looked_at, supposed};
 use crate::blocks::{BlockAccount, Comparison, Figures, First, Sense, Way};
@@ -314,18 +315,17 @@ fn write_senses(out: &mut String, figures: &Figures, number: u64) -> std::fmt::R
     let Some(senses @ [_, ..]) = figures.senses() else {
         return Ok(());
     };
-    let compared = figures.compared(number);
-    if compared.iter().all(|c| *c == Comparison::Same) {
+    let told = SensesOf::new(senses, &figures.compared(number));
+    if told.as_in_sketch == Some(true) {
         return writeln!(out, "  senses as in the sketch");
     }
-    for (how, what) in [
-        (Comparison::Other, "turned the other way"),
-        (Comparison::Flat, "flat, without a sense"),
-        (Comparison::Undecided, "not certain which way"),
+    for (names, what) in [
+        (&told.other, "turned the other way"),
+        (&told.flat, "flat, without a sense"),
+        (&told.undecided, "not certain which way"),
     ] {
-        let names = named(senses, &compared, how);
         if !names.is_empty() {
-            writeln!(out, "  {what}: {}", list(&names, LISTED))?;
+            writeln!(out, "  {what}: {}", list(names, LISTED))?;
         }
     }
     Ok(())

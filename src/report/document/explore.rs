@@ -53,7 +53,7 @@ pub struct PathFollowed {
     /// How it ended.
     pub status: String,
     /// Where its sketch comes from; none: it is the drawn one.
-    pub from: Option<From>,
+    pub from: Option<Origin>,
     /// Its sketch.
     pub sketch: Points<f64>,
     /// The length that bends.
@@ -82,7 +82,7 @@ impl PathFollowed {
 
 /// Where a sketch comes from.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct From {
+pub struct Origin {
     /// The solution, from 0 on.
     pub solution: u64,
     /// The branch of a plan.

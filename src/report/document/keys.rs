@@ -24,7 +24,8 @@ macro_rules! keys {
         }
 
         impl $name {
-            pub(crate) fn new($($given: $of),*) -> Self {
+            /// What there is to say of what is given.
+            pub fn new($($given: $of),*) -> Self {
                 $name { $($key: $value,)* $($($may: $may_value,)*)? }
             }
         }

@@ -24,6 +24,16 @@
 //!     panic!("it is of another verb");
 //! };
 //! assert!(limits.ranges.get("b-c").unwrap().low.status == "limit");
+//!
+//! // Of what is no result the key is told at which it is none.
+//! let mut value = serde_json::to_value(&written)?;
+//! value["ranges"]["b-c"]["low"]["value"] = "far".into();
+//! let error = Document::try_from(value.clone()).unwrap_err().to_string();
+//! assert!(error.contains("`ranges` is missing or not what it should be (invalid type"), "{error}");
+//! value.as_object_mut().unwrap().remove("sketch");
+//! value["ranges"] = Default::default();
+//! let error = Document::try_from(value).unwrap_err().to_string();
+//! assert!(error.contains("`ranges` is missing"), "{error}");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
@@ -53,7 +63,7 @@ pub use complex::{AtInfinity, BoundOf, Complex, ComplexFigure, Parts};
 pub use drawing::{Constraint, Dimension, Drawing, Frame, Object};
 pub(crate) use drawing::{all_names, names};
 pub use edit::{Answer, AtLimit, Dragged, DraggedTo, Edit, Followed, Lost, Standing};
-pub use explore::{Counts, Explored, FigureFound, From, PathFollowed, Publication};
+pub use explore::{Counts, Explored, FigureFound, Origin, PathFollowed, Publication};
 pub use figures::{Choice, FigureOfBlocks, Figures, Refused, Senses, SensesOf};
 pub use limits::{Limits, RangeEnd, RangeOf};
 pub use motion::{Extreme, Motion, MotionEnd, MotionFrame, MotionMeasured};

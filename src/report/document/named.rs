@@ -14,9 +14,7 @@ impl<T> Named<T> {
         let mut all = self.0.iter();
         all.find_map(|(known, what)| (known == name).then_some(what))
     }
-}
 
-impl<T> Named<T> {
     /// What there is of each point of a problem.
     pub(crate) fn of<U>(problem: &Problem, all: &[U], make: impl Fn(&U) -> T) -> Self {
         let all = problem.points.iter().zip(all);

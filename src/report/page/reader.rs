@@ -191,9 +191,10 @@ impl<'a> Reader<'a> {
             points.0.iter().map(|(name, at)| (&name[..], at)).collect();
         let places = self.drawing.names.iter().map(|name| {
             let place = known.get(&name[..]).map(|place| &place[..]);
-            place.filter(|place| place.len() == self.dimension)
+            let place = place.filter(|place| place.len() == self.dimension);
+            place.ok_or_else(|| ShowError::NotAResult(key.to_owned(), format!(" (`{name}`)")))
         });
-        places.collect::<Option<_>>().ok_or_else(|| wrong(key))
+        places.collect()
     }
 
     /// The outlines of a figure in the coordinates of the results.
