@@ -17,7 +17,7 @@ use std::path::Path;
 
 /// The figures of a sketch, and what is told of them.
 pub(super) struct Found {
-    figures: Figures,
+    pub figures: Figures,
     /// The number of the one that `--first` means, if it is there.
     first: Option<u64>,
     pub text: String,
@@ -25,13 +25,6 @@ pub(super) struct Found {
     pub document: Document,
     /// The exit code.
     pub code: u8,
-}
-
-impl Found {
-    /// Whether there is proved to be none.
-    pub fn has_none(&self) -> bool {
-        self.figures.count() == Some(0)
-    }
 }
 
 /// Of so many figures of a sketch, which may have many, measures are told.

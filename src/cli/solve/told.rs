@@ -100,7 +100,7 @@ impl Told<'_> {
         };
         self.results
             .note(arguments.take_of(&found, (problem, file)));
-        let alone = match found.has_none() && self.results.are_read() {
+        let alone = match found.figures.count() == Some(0) && self.results.are_read() {
             true => arguments.alone(problem),
             false => Vec::new(),
         };

@@ -10,8 +10,8 @@ pub use table::comparison_to_table;
 
 use crate::compare::{Comparison, Fault, Measured, Method, Row, Verdict};
 use crate::problem::{Published, counted, either};
-use crate::report::document::{Comparisons, text};
-use crate::track::{Status, StopKind};
+use crate::report::document::{Comparisons, ended, text};
+use crate::track::StopKind;
 
 /// A comparison and what was published about its problem.
 #[derive(Debug, Clone)]
@@ -51,11 +51,14 @@ impl Compared {
 pub(super) fn status(row: &Row) -> (&'static str, Option<&str>, Option<StopKind>) {
     match &row.result {
         Err(reason) => ("unsupported", Some(reason), None),
-        Ok(measured) => match &measured.outcome.status {
-            Status::Closed => ("closed", None, None),
-            Status::Open(_) => ("open", None, None),
-            Status::Stopped(stop) => ("stopped", Some(&stop.text), Some(stop.kind)),
-        },
+        Ok(measured) => {
+            let (word, stop) = ended(&measured.outcome.status);
+            (
+                word,
+                stop.map(|stop| &stop.text[..]),
+                stop.map(|stop| stop.kind),
+            )
+        }
     }
 }
 

@@ -73,9 +73,9 @@ keys! {
 keys! {
     /// Figures at infinity.
     AtInfinity(problem: &Problem, departure: &Departure) {
-        /// The points that go there together.
+        /// The points that go there.
         points: Vec<String> = names(problem, &departure.split.inside),
-        /// Those around which they go.
+        /// The one cycle among their neighbours, in its order.
         cycle: Vec<String> = names(problem, &departure.split.cycle),
         /// How many there are.
         figures: usize = departure.figures.len(),

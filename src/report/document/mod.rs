@@ -56,25 +56,12 @@ mod solve;
 mod sweep;
 mod tolerance;
 
-pub use all::{All, AllFigure, Part, Undecided};
-pub use beside::{AloneEnding, Beside, Conformer, Contact, ManyDigits, Measured, Torsion};
-pub use compare::{Comparison, Comparisons, FaultOf, PublishedRun, RowOf};
-pub use complex::{AtInfinity, BoundOf, Complex, ComplexFigure, Parts};
-pub use drawing::{Constraint, Dimension, Drawing, Frame, Object};
 pub(crate) use drawing::{all_names, names};
-pub use edit::{Answer, AtLimit, Dragged, DraggedTo, Edit, Followed, Lost, Standing};
-pub use explore::{Counts, Explored, FigureFound, Origin, PathFollowed, Publication};
-pub use figures::{Choice, FigureOfBlocks, Figures, Refused, Senses, SensesOf};
-pub use limits::{Limits, RangeEnd, RangeOf};
-pub use motion::{Extreme, Motion, MotionEnd, MotionFrame, MotionMeasured};
-pub use named::Named;
-pub use objects::{At, Objects};
-pub use solve::{
-    Away, Blocks, Driving, FigureOfRuns, Fold, Orientation, PathEnd, Sample, Set, Signs, Solution,
-    Solve,
+pub(crate) use solve::ended;
+pub use {
+    all::*, beside::*, compare::*, complex::*, drawing::*, edit::*, explore::*, figures::*,
+    limits::*, motion::*, named::*, objects::*, solve::*, sweep::*, tolerance::*,
 };
-pub use sweep::{Sweep, SweepFrame};
-pub use tolerance::{FigureWithin, Tolerance, ToleranceLimits, ToleranceMeasured, Tolerances};
 
 use crate::interval::Interval;
 use crate::problem::Problem;

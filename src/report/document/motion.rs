@@ -12,7 +12,7 @@ keys! {
     Motion(motion: &motion::Motion) {
         /// The dimensions set free.
         freed: Vec<String> = motion.freed.clone(),
-        /// Two points whose distance tells where it is.
+        /// The two points whose distance was led along the way.
         driver: Vec<String> = names(&motion.problem, &motion.driver),
         /// `closed`, `open` or `stopped`.
         status: String = match (motion.is_loop(), motion.is_told()) {

@@ -21,15 +21,11 @@ keys! {
         /// What was set.
         options: Set = Set::new(run.problem, run.options),
         /// `closed`, `open` or `stopped`.
-        status: String = match run.outcome.status {
-            Status::Closed => "closed".into(),
-            Status::Open(_) => "open".into(),
-            Status::Stopped(_) => "stopped".into(),
-        },
+        status: String = ended(&run.outcome.status).0.into(),
         /// Why it stopped.
-        reason: Option<String> = stop(run).map(|stop| stop.text.clone()),
+        reason: Option<String> = ended(&run.outcome.status).1.map(|stop| stop.text.clone()),
         /// That for programs.
-        stopped_kind: Option<String> = stop(run).map(|stop| stop.kind.name().into()),
+        stopped_kind: Option<String> = ended(&run.outcome.status).1.map(|stop| stop.kind.name().into()),
         /// What is proved.
         verdict: String = verdict(run.problem, run.outcome, run.tested),
         /// Joined points, and how they turn in the sketch.
@@ -75,10 +71,12 @@ keys! {
     }
 }
 
-fn stop<'a>(run: &Run<'a>) -> Option<&'a Stop> {
-    match &run.outcome.status {
-        Status::Stopped(stop) => Some(stop),
-        _ => None,
+/// How a run ended, and why, if it stopped.
+pub(crate) fn ended(status: &Status) -> (&'static str, Option<&Stop>) {
+    match status {
+        Status::Closed => ("closed", None),
+        Status::Open(_) => ("open", None),
+        Status::Stopped(stop) => ("stopped", Some(stop)),
     }
 }
 
