@@ -15,8 +15,8 @@ use krawl::complete::{Complete, Keep, Options, Progress, Status, Tested, Unserve
 use krawl::constraint::Symmetry;
 use krawl::problem::counted;
 use krawl::report::{
-    ProgressLine, complete_to_json_with, complete_to_table, complete_to_value, conformers_to_table,
-    conformers_to_value, digits_to_table, digits_to_value,
+    Document, ProgressLine, complete_to_table, conformers_to_table, conformers_told,
+    digits_to_table,
 };
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -204,7 +204,6 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
         }),
         _ => {}
     }
-    results.write_page(|| complete_to_value(&problem, &result))?;
     let figures = || result.solutions.iter().map(placed);
     let either = result.symmetry == Symmetry::Isometries;
     let conformers = skeleton.filter(|_| results.are_read()).map(|skeleton| {
@@ -217,27 +216,14 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
     let many = arguments
         .many
         .of(&problem, &result.reference, &result.solutions);
-    results.write_json(|| {
+    results.write(|| {
         let conformers = conformers.as_ref();
-        let more = [
-            (
-                "measures",
-                (!measures.is_empty()).then(|| measures.to_value(figures())),
-            ),
-            (
-                "conformers",
-                conformers.map(|(of, all)| conformers_to_value(&problem, of, all)),
-            ),
-            (
-                "digits",
-                arguments
-                    .many
-                    .is_wanted()
-                    .then(|| digits_to_value(&problem, &many)),
-            ),
-        ];
-        complete_to_json_with(&problem, &result, more) + "\n"
-    });
+        let mut document = Document::all(&problem, &result);
+        document.beside.measures = measures.told(figures());
+        document.beside.conformers = conformers.map(|(of, all)| conformers_told(&problem, of, all));
+        document.beside.digits = arguments.many.told(&problem, &many);
+        document
+    })?;
     results.print(|| {
         let mut text = complete_to_table(&problem, &result);
         text += &measures.to_table("", figures());

@@ -2,6 +2,7 @@
 
 use krawl::digits::{Digits, MOST_DIGITS, to_digits};
 use krawl::problem::Problem;
+use krawl::report::document::ManyDigits as Told;
 use krawl::track::Solution;
 
 /// How many digits are wanted.
@@ -16,6 +17,11 @@ pub(super) struct ManyDigits {
 }
 
 impl ManyDigits {
+    /// Solutions for JSON, where they are asked for.
+    pub fn told(&self, problem: &Problem, all: &[Result<Digits, String>]) -> Option<Vec<Told>> {
+        self.is_wanted().then(|| Told::all(problem, all))
+    }
+
     /// Whether they are asked for.
     pub fn is_wanted(&self) -> bool {
         self.digits.is_some()

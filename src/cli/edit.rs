@@ -14,8 +14,7 @@ use krawl::import::{Followed, Format};
 use krawl::problem::Problem;
 use krawl::remarks::moves;
 use krawl::report::{
-    account_in_words, edit_to_document, edit_to_table, followed_to_table, followed_to_value,
-    signs_of_figure,
+    Document, account_in_words, edit_to_table, followed_to_table, signs_of_figure,
 };
 use krawl::track::{Control, Options, StopKind, Witness};
 use std::fs::File;
@@ -247,12 +246,10 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
     let figure = || std::iter::once((&edited.points[..], &edited.objects[..]));
     results.note(is_written);
     results.write(|| {
-        let mut value = edit_to_document(&problem, &edited, &session);
-        followed_to_value(&loaded.problem, &followed, &mut value);
-        if !measures.is_empty() {
-            value["measures"] = measures.to_value(figure());
-        }
-        value
+        let of_file = (&loaded.problem, &followed);
+        let mut document = Document::edit(&problem, &edited, &session, of_file);
+        document.beside.measures = measures.told(figure());
+        document
     })?;
     if let Some(out) = &arguments.out
         && edited.ending == Ending::Reached

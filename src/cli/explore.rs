@@ -9,10 +9,7 @@ use krawl::certificate::Writer;
 use krawl::complete::{self, all};
 use krawl::explore::{ExploreError, Explorer, Finish, Options, Progress};
 use krawl::problem::{Problem, Published};
-use krawl::report::{
-    AllReal, Explored, ProgressLine, TracedPath, explore_to_json, explore_to_table,
-    explore_to_value,
-};
+use krawl::report::{AllReal, Document, Explored, ProgressLine, TracedPath, explore_to_table};
 use krawl::track::{self, Control, Witness};
 use std::collections::BTreeSet;
 use std::io::BufWriter;
@@ -177,8 +174,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
             explorer.contents().classes.len()
         ));
     }
-    results.write_json(|| explore_to_json(&explored) + "\n");
-    results.write_page(|| explore_to_value(&explored))?;
+    results.write(|| Document::explore(&explored))?;
     results.print(|| explore_to_table(&explored, arguments.all));
     let is_shared = !explorer.contents().out.is_empty();
     Ok(results.code(match finish {

@@ -6,7 +6,7 @@ use super::pictures::Pictures;
 use super::results::Results;
 use super::{CLOSED, STOPPED, input, interrupt};
 use krawl::edit::{End, Setting};
-use krawl::report::{ranges_to_table, ranges_to_value};
+use krawl::report::{Document, ranges_to_table};
 use std::path::PathBuf;
 
 /// For every dimension, how far it can go alone, all others standing still, with proof
@@ -76,7 +76,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
     for range in &mut ranges {
         loaded.add_left_out(&mut range.account, None);
     }
-    results.write(|| ranges_to_value(problem, &ranges, session.moved()))?;
+    results.write(|| Document::limits(problem, &ranges, session.moved()))?;
     results.print(|| {
         let drawn = drawn_in_words(problem, &session);
         drawn + &ranges_to_table(problem, &ranges, session.moved())

@@ -6,7 +6,7 @@ use super::pictures::Pictures;
 use super::results::Results;
 use super::{CLOSED, OPEN, STOPPED, input, interrupt};
 use krawl::motion::Motion;
-use krawl::report::{motion_in_words, motion_to_csv, motion_to_table, motion_to_value};
+use krawl::report::{Document, motion_in_words, motion_to_csv, motion_to_table};
 use krawl::track::Options;
 use std::path::PathBuf;
 
@@ -75,7 +75,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
     // Frames are not all of the way.
     loaded.add_left_out(&mut motion.account, None);
     results.write_csv(|| motion_to_csv(&motion, &measures));
-    results.write(|| motion_to_value(&motion))?;
+    results.write(|| Document::motion(&motion))?;
     results.print_or_say(|| motion_to_table(&motion), || motion_in_words(&motion));
     Ok(results.code(match (motion.is_loop(), motion.is_told()) {
         (true, _) => CLOSED,

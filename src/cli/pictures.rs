@@ -1,8 +1,8 @@
 //! Pages and pictures that verbs with figures can write.
 
 use super::output::{self, Destination};
+use krawl::report::Document;
 use krawl::report::page::Page;
-use serde_json::Value;
 use std::path::{Path, PathBuf};
 
 const HEADING: &str = "Pictures and figures";
@@ -111,12 +111,12 @@ impl Places<'_> {
         all.any(|(_, destination, _)| *destination == Destination::StandardOutput)
     }
 
-    /// Writes a result, which is made where it is wanted, as pictures alone. Returns whether all is well, having complained otherwise.
-    pub fn write_page(&self, result: impl FnOnce() -> Value) -> Result<bool, String> {
+    /// Writes a result as pictures alone. Returns whether all is well, having complained otherwise.
+    pub fn write_page(&self, result: &Document) -> Result<bool, String> {
         if self.is_empty() {
             return Ok(true);
         }
-        let page = Page::from_result(&result()).map_err(|error| error.to_string())?;
+        let page = Page::of(result).map_err(|error| error.to_string())?;
         Ok(self.write(&page))
     }
 

@@ -2,7 +2,7 @@
 
 use super::output::{self, Destination, beside};
 use super::pictures::{Pictures, Places};
-use serde_json::Value;
+use krawl::report::Document;
 use std::path::{Path, PathBuf};
 
 /// The places that are named for results, looked for before a run begins, and whether all could be written so far.
@@ -60,13 +60,13 @@ impl<'a> Results<'a> {
     }
 
     /// Writes a result, which is made where it is wanted, as JSON and as pictures.
-    pub fn write(&mut self, result: impl FnOnce() -> Value) -> Result<(), String> {
+    pub fn write(&mut self, result: impl FnOnce() -> Document) -> Result<(), String> {
         if self.json.is_none() && self.pictures.is_empty() {
             return Ok(());
         }
-        let value = result();
-        self.write_json(|| value.to_string() + "\n");
-        self.write_page(|| value)
+        let result = result();
+        self.write_json(|| result.to_json() + "\n");
+        self.write_page(&result)
     }
 
     /// Writes JSON that is made where it is wanted.
@@ -81,8 +81,8 @@ impl<'a> Results<'a> {
         self.is_written &= csv.is_none_or(|csv| csv.write(&text()));
     }
 
-    /// Writes a result, which is made where it is wanted, as pictures alone.
-    pub fn write_page(&mut self, result: impl FnOnce() -> Value) -> Result<(), String> {
+    /// Writes a result as pictures alone.
+    pub fn write_page(&mut self, result: &Document) -> Result<(), String> {
         self.is_written &= self.pictures.write_page(result)?;
         Ok(())
     }

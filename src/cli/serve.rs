@@ -3,7 +3,7 @@
 use super::input::Loaded;
 use krawl::edit::{Drag, Ending, Session, Setting};
 use krawl::import::Followed;
-use krawl::report::{edit_to_value, figure_to_value, followed_to_value};
+use krawl::report::document::{Answer, Standing};
 use krawl::track::Control;
 use serde::Deserialize;
 use serde_json::value::RawValue;
@@ -84,14 +84,14 @@ fn answer(session: &mut Session, loaded: &Loaded, line: &[u8]) -> Value {
             Ok(drags) => {
                 let mut edited = session.drag(&drags, &mut Control::default());
                 loaded.add_left_out(&mut edited.account, Some(&edited.points));
-                let mut value = edit_to_value(session.problem(), &edited, session.moved());
+                let mut answer = Answer::of(session, &edited);
                 let is_moved = edited.dragged.is_some_and(|dragged| dragged.legs > 0);
-                value["committed"] = json!(is_moved);
-                value
+                answer.edit.committed = Some(is_moved);
+                json!(answer)
             }
         },
         Err(reason) => json!({"status": "error", "reason": reason}),
-        Ok((settings, _)) if settings.is_empty() => figure_to_value(session),
+        Ok((settings, _)) if settings.is_empty() => json!(Standing::new(session)),
         Ok((settings, mut followed)) => {
             let mut control = Control::default();
             let mut edited = match request.probe {
@@ -102,10 +102,11 @@ fn answer(session: &mut Session, loaded: &Loaded, line: &[u8]) -> Value {
             if edited.ending != Ending::Reached {
                 followed.note_way();
             }
-            let mut value = edit_to_value(session.problem(), &edited, session.moved());
-            followed_to_value(session.problem(), &followed, &mut value);
-            value["committed"] = json!(!request.probe && edited.ending == Ending::Reached);
-            value
+            let mut answer = Answer::of(session, &edited);
+            answer.edit.follow(session.problem(), &followed);
+            let is_committed = !request.probe && edited.ending == Ending::Reached;
+            answer.edit.committed = Some(is_committed);
+            json!(answer)
         }
     };
     if let Some(id) = request.id {

@@ -9,7 +9,7 @@ use super::{input, interrupt, table};
 use crate::places::Each as _;
 use krawl::certificate::Writer;
 use krawl::edit::{Asked, Setting};
-use krawl::report::{sweep_in_words, sweep_to_csv, sweep_to_value};
+use krawl::report::{Document, sweep_in_words, sweep_to_csv};
 use krawl::track::{Control, Witness};
 use std::io::BufWriter;
 use std::path::PathBuf;
@@ -174,11 +174,9 @@ fn drive(arguments: &Arguments, vary: &str, ends: [&str; 2]) -> Result<u8, Refus
     };
     results.note(is_written);
     results.write(|| {
-        let mut value = sweep_to_value(&problem, index, &sweep);
-        if !measures.is_empty() {
-            value["measures"] = measures.to_value(frames());
-        }
-        value
+        let mut document = Document::sweep(&problem, index, &sweep);
+        document.beside.measures = measures.told(frames());
+        document
     })?;
     results.write_csv(|| sweep_to_csv(&problem, index, &sweep, &measures));
     results.print(|| {

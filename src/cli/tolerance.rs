@@ -10,8 +10,8 @@ use krawl::complete::{self, Progress};
 use krawl::edit::Limits;
 use krawl::problem::{Decimal, Problem};
 use krawl::report::{
-    ProgressLine, tolerance_set_in_words, tolerance_set_to_table, tolerance_set_to_value,
-    tolerances_in_words, tolerances_to_csv, tolerances_to_table, tolerances_to_value,
+    Document, ProgressLine, tolerance_set_in_words, tolerance_set_to_table, tolerances_in_words,
+    tolerances_to_csv, tolerances_to_table,
 };
 use krawl::tolerance::{limits, study, study_all};
 use krawl::track::Options;
@@ -115,7 +115,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
     // What was left out of a sketch, and what is held, belongs to what is said.
     study.account.join(&made);
     results.write_csv(|| tolerances_to_csv(&problem, &study));
-    results.write(|| tolerances_to_value(&problem, &study))?;
+    results.write(|| Document::tolerance(&problem, &study))?;
     results.print_or_say(
         || tolerances_to_table(&problem, &study),
         || tolerances_in_words(&problem, &study),
@@ -147,7 +147,7 @@ fn run_all(
     let file = &arguments.source.file;
     let mut set = set.map_err(|error| Refusal::of_run(file, &error, &control))?;
     set.account.join(made);
-    results.write(|| tolerance_set_to_value(problem, &set))?;
+    results.write(|| Document::tolerances(problem, &set))?;
     results.print_or_say(
         || tolerance_set_to_table(problem, &set),
         || tolerance_set_in_words(problem, &set),

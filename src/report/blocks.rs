@@ -2,13 +2,13 @@
 
 use super::columns::written;
 use super::complete::counted_or_many;
-use super::edit::{points_to_value, write_points};
+use super::document::{Blocks, Document, Solve};
+use super::edit::write_points;
 use super::figures::{IN_JSON, Listed, chosen_in_words, write_more};
-use super::json::Run;
+use super::run::Run;
 use crate::blocks::Combined;
 use crate::problem::Problem;
 use crate::track::{Mode, Options, Outcome, Status};
-use serde_json::{Value, json};
 use std::fmt::{self, Write};
 
 /// A problem with the runs of its blocks ([`crate::blocks::clusters`]).
@@ -26,14 +26,14 @@ pub struct BlockRuns<'a> {
 
 impl BlockRuns<'_> {
     /// The figures of the whole; `None` if the blocks do not hang together.
-    fn combined(&self) -> Option<Combined<'_>> {
+    pub(super) fn combined(&self) -> Option<Combined<'_>> {
         let blocks: Vec<Problem> = self.runs.iter().map(|(block, _)| block.clone()).collect();
         let solutions = self.runs.iter().map(|(_, run)| run.solutions.as_slice());
         Combined::new(self.problem, &blocks, solutions.collect())
     }
 
     /// Whether every run was proved to its end, closed or open.
-    fn all_proved(&self) -> bool {
+    pub(super) fn all_proved(&self) -> bool {
         self.runs.iter().all(|(_, run)| {
             run.mode == Mode::Certified && !matches!(run.status, Status::Stopped(_))
         })
@@ -107,40 +107,13 @@ impl BlockRuns<'_> {
         write_more(out, count, numbers.end)
     }
 
-    /// The result as a value in memory: that of the whole, which stopped, with `blocks` added (docs/using/programs.md).
-    pub fn to_value(&self, whole: &Outcome, all: bool) -> Value {
-        let run = |problem, outcome| Run::new(problem, self.options, outcome);
-        let mut value = run(self.problem, whole).to_value();
-        let blocks: Vec<Value> = self
-            .runs
-            .iter()
-            .map(|(block, outcome)| run(block, outcome).to_value())
-            .collect();
+    /// The result: that of the whole, which stopped, with `blocks` in it (docs/using/programs.md).
+    pub fn document(&self, whole: &Outcome, all: bool) -> Document {
+        let mut own = Solve::of(&Run::new(self.problem, self.options, whole));
         let combined = self.combined();
         let count = combined.as_ref().and_then(Combined::count);
         let numbers = Listed::of(all).numbers(count.unwrap_or(u64::MAX), IN_JSON);
-        let figures = combined.iter().flat_map(|combined| {
-            numbers.clone().map(|number| {
-                let choices = combined.choices(number);
-                let points = combined.figure(&choices);
-                let chosen = choices.iter().map(
-                    |c| json!({"block": c.block, "solution": c.solution, "mirrored": c.mirrored}),
-                );
-                json!({
-                    "choices": chosen.collect::<Vec<_>>(),
-                    "points": points.map(|points| points_to_value(self.problem, &points)),
-                })
-            })
-        });
-        let figures: Vec<Value> = figures.collect();
-        value["blocks"] = json!({
-            "verdict": self.verdict(),
-            "proved": self.all_proved(),
-            "count": count,
-            "without_mirror_images": combined.as_ref().is_some_and(Combined::without_mirror_images),
-            "runs": blocks,
-            "figures": figures,
-        });
-        value
+        own.blocks = Some(Blocks::new(self, combined.as_ref(), numbers));
+        own.document(self.problem)
     }
 }

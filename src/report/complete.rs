@@ -1,19 +1,15 @@
 //! All solutions, for people and for programs.
 
 use super::columns::{DIGITS, write_digits, written};
-use super::drawing::{Drawing, all_names, names};
-use super::json::{Beside, Points, beside, text, value};
-use super::objects::Objects;
+use super::document::all_names;
 use super::supposed::supposed;
 use super::table::write_objects;
 use crate::blocks::{Account, LeftOut, rounded_down, rounded_up};
 use crate::certificate::cover::CoverVerdict;
-use crate::complete::{Among, Choice, Complete, Constructed, Method, Status, Tested, Why};
+use crate::complete::{Among, Choice, Complete, Method, Status, Tested, Why};
 use crate::constraint::{Symmetry, symmetry};
-use crate::interval::Interval;
 use crate::problem::{Object, Problem, Shape, counted, either, list};
-use crate::track::{Mode, Signed};
-use serde_json::{Map, Value, json};
+use crate::track::Mode;
 use std::fmt::Write;
 
 /// Of the parts that a sketch falls apart into, so many are shown.
@@ -22,163 +18,10 @@ const SHOWN: usize = 12;
 /// Of the names of what was left out, so many are listed.
 const LISTED: usize = 24;
 
-/// One JSON object on one line: what is said of every problem (docs/using/programs.md, "The problem"), and
-///
-/// ```json
-/// {"status": "complete" | "partial" | "flexible", "reason": null, "verdict": "Complete, proved: ...",
-///  "reference": ["p1", "p2", "p3"],
-///  "solutions": [{"points": {"p1": [[0.0, 0.0], [0.0, 0.0], [0.0, 0.0]]}, "class": 0, "width": 1e-14}],
-///  "undecided": [{"reason": "...", "parts": 1, "share": 1e-9}],
-///  "method": "plan", "count": 4, "boxes": 101, "seconds": 0.0,
-///  "seconds_left": null, "driving": 1, "plan": ["p1", "p2", "p3", "p5", "p4", "p6"]}
-/// ```
-///
-/// A search over coordinates has `"constructed": {"unknowns": 16, "parameters": 2}` beside these where unknowns were computed step by step from
-/// a few of them, the parameters: of the largest system of equations in which they were. One among complex solutions has their number
-/// as `"complex"`.
-///
-/// Points are as in the JSON of a run along the path: pairs of bounds in the problem's units, seen from the
-/// reference points.
-pub fn complete_to_json(problem: &Problem, result: &Complete) -> String {
-    text(&Document::new(problem, result))
-}
-
-/// The same, with what was asked for beside it, under these keys.
-pub fn complete_to_json_with(
-    problem: &Problem,
-    result: &Complete,
-    more: impl IntoIterator<Item = Beside>,
-) -> String {
-    text(&Document {
-        beside: beside(more),
-        ..Document::new(problem, result)
-    })
-}
-
-/// What [`complete_to_json`] writes, as a value in memory.
-pub fn complete_to_value(problem: &Problem, result: &Complete) -> serde_json::Value {
-    value(&Document::new(problem, result))
-}
-
-impl<'a> Document<'a> {
-    fn new(problem: &'a Problem, result: &'a Complete) -> Self {
-        Document {
-            drawing: Drawing::seen_from("all", problem, &result.reference),
-            status: result.status.name(),
-            reason: result.reason.as_deref(),
-            verdict: verdict(problem, result),
-            method: result.method.name(),
-            count: result.count,
-            parts: result
-                .parts
-                .iter()
-                .map(|part| {
-                    json!({
-                        "points": all_names(&part.problem),
-                        "status": part.result.status.name(),
-                        "solutions": part.result.solutions.len(),
-                        "boxes": part.result.boxes,
-                    })
-                })
-                .collect(),
-            independent: &result.choices,
-            decided_first: result.first_choice.as_ref(),
-            tested: result.tested.as_ref(),
-            signed: result.signed.map(signs),
-            solutions: result
-                .solutions
-                .iter()
-                .enumerate()
-                .map(|(k, solution)| Entry {
-                    left_out: figure(result, k),
-                    points: Points(problem, solution.points.clone()),
-                    objects: Objects::new(problem, &solution.objects, |x| *x),
-                    class: solution.class,
-                    width: solution.width,
-                })
-                .collect(),
-            undecided: result
-                .undecided
-                .iter()
-                .map(|part| {
-                    json!({"reason": why(part.why), "parts": part.count, "share": part.share})
-                })
-                .collect(),
-            boxes: result.boxes,
-            seconds: result.seconds,
-            seconds_left: result.seconds_left,
-            driving: result.driving,
-            constructed: result.constructed,
-            complex: result.complex,
-            turned: &result.turned,
-            plan: names(problem, &result.plan),
-            beside: Map::new(),
-        }
-    }
-}
-
-#[derive(serde::Serialize)]
-struct Document<'a> {
-    #[serde(flatten)]
-    drawing: Drawing<'a>,
-    status: &'static str,
-    reason: Option<&'a str>,
-    verdict: String,
-    method: &'static str,
-    count: Option<u64>,
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    parts: Vec<Value>,
-    #[serde(skip_serializing_if = "<[_]>::is_empty")]
-    independent: &'a [Choice],
-    #[serde(skip_serializing_if = "Option::is_none")]
-    decided_first: Option<&'a Choice>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    tested: Option<&'a Tested>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    signed: Option<Value>,
-    solutions: Vec<Entry<'a>>,
-    undecided: Vec<Value>,
-    boxes: u64,
-    seconds: f64,
-    seconds_left: Option<f64>,
-    driving: usize,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    constructed: Option<Constructed>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    complex: Option<usize>,
-    #[serde(skip_serializing_if = "<[_]>::is_empty")]
-    turned: &'a [String],
-    plan: Vec<&'a str>,
-    #[serde(flatten)]
-    beside: Map<String, Value>,
-}
-
-#[derive(serde::Serialize)]
-struct Entry<'a> {
-    points: Points<'a, [Interval; 3]>,
-    #[serde(skip_serializing_if = "Objects::is_empty")]
-    objects: Objects<'a, Interval>,
-    class: usize,
-    width: f64,
-    #[serde(skip_serializing_if = "<[_]>::is_empty")]
-    left_out: &'a [LeftOut],
-}
-
 /// How a solution stands to what was left out, if anything was.
-fn figure(result: &Complete, index: usize) -> &[LeftOut] {
+pub(super) fn figure(result: &Complete, index: usize) -> &[LeftOut] {
     let tested = result.tested.as_ref();
     tested.map_or(&[], |tested| &tested.figures[index])
-}
-
-/// What came of the figures by the signs that are asked for.
-pub(super) fn signs(signed: Signed) -> Value {
-    json!({
-        "asked": signed.asked,
-        "parts_given_up": signed.cut,
-        "wrong": signed.wrong,
-        "mirrored": signed.mirrored,
-        "undecided": signed.undecided,
-    })
 }
 
 pub(super) fn why(why: Why) -> &'static str {
@@ -381,7 +224,7 @@ fn span(seconds: f64) -> String {
 }
 
 /// What was found, in words that claim no more than was proved.
-fn verdict(problem: &Problem, result: &Complete) -> String {
+pub(super) fn verdict(problem: &Problem, result: &Complete) -> String {
     let signed = result.signed.unwrap_or_default();
     let mut struck = match (signed.cut, signed.wrong) {
         (0, 0) => String::new(),

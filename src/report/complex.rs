@@ -1,8 +1,8 @@
 //! Complex solutions, as text and for programs.
 
+use super::certain_digits;
 use super::columns::written;
-use super::drawing::names;
-use super::{JSON_VERSION, certain_digits};
+use super::document::{Complex, names, text};
 use crate::certificate::complex::{ComplexFlaw, ComplexVerdict};
 use crate::complex::infinity::{Departure, Split};
 use crate::complex::{Lowered, Nature, SolutionBox, Solutions, Status};
@@ -10,7 +10,6 @@ use crate::constraint::{Symmetry, symmetry};
 use crate::interval::{Interval, point};
 use crate::places::Each as _;
 use crate::problem::{Problem, counted, either, list};
-use serde_json::{Map, Value, json};
 use std::fmt::Write;
 
 /// The real and imaginary part of an unknown, in the problem's unit.
@@ -22,7 +21,7 @@ fn parts(lowered: &Lowered, one: &SolutionBox, unknown: usize) -> [Interval; 2] 
 }
 
 /// A coordinate; zero where the gauge fixes it. Of a real solution the imaginary part is zero.
-fn coordinate(
+pub(super) fn coordinate(
     lowered: &Lowered,
     one: &SolutionBox,
     nature: Nature,
@@ -40,7 +39,7 @@ fn coordinate(
 }
 
 /// The unknowns that are no coordinates of points.
-fn others(lowered: &Lowered) -> Vec<usize> {
+pub(super) fn others(lowered: &Lowered) -> Vec<usize> {
     let system = &lowered.system;
     let is_coordinate = |u: &usize| system.points.iter().flatten().any(|c| *c == Some(*u));
     (0..system.unknowns.len())
@@ -49,7 +48,10 @@ fn others(lowered: &Lowered) -> Vec<usize> {
 }
 
 /// The vectors that vanish in a solution, as far as its box tells, and must not in a figure.
-fn vanishing<'a>(lowered: &'a Lowered, one: &'a SolutionBox) -> impl Iterator<Item = &'a str> {
+pub(super) fn vanishing<'a>(
+    lowered: &'a Lowered,
+    one: &'a SolutionBox,
+) -> impl Iterator<Item = &'a str> {
     let part = |unknown: usize, k: usize| one.parts.get(2 * unknown + k).copied();
     let may_be_zero = move |&[from, to]: &[usize; 2]| {
         let at = |unknown, k| part(unknown, k).unwrap_or(point(0.0));
@@ -82,7 +84,7 @@ fn no_figures(lowered: &Lowered, result: &Solutions) -> String {
     )
 }
 
-fn name(nature: Nature) -> &'static str {
+pub(super) fn name(nature: Nature) -> &'static str {
     match nature {
         Nature::Real => "real",
         Nature::SelfConjugate => "self-conjugate",
@@ -93,7 +95,7 @@ fn name(nature: Nature) -> &'static str {
 }
 
 /// The name of a status in files.
-fn status(status: &Status) -> &'static str {
+pub(super) fn status(status: &Status) -> &'static str {
     match status {
         Status::Complete => "complete",
         Status::Found => "found",
@@ -101,80 +103,9 @@ fn status(status: &Status) -> &'static str {
     }
 }
 
-/// The result for programs.
+/// The result for programs, as one line of JSON.
 pub fn complex_to_json(problem: &Problem, lowered: &Lowered, result: &Solutions) -> String {
-    let d = problem.dimension;
-    let pair = |parts: [Interval; 2]| -> Value {
-        parts.iter().map(|x| json!([x.inf(), x.sup()])).collect()
-    };
-    let others = others(lowered);
-    let solutions = result
-        .boxes
-        .boxes()
-        .iter()
-        .zip(&result.natures)
-        .map(|(one, &nature)| {
-            let points = problem
-                .points
-                .iter()
-                .zip(&lowered.system.points)
-                .map(|(p, unknowns)| {
-                    let place = unknowns[..d].iter();
-                    let place = place.map(|&u| pair(coordinate(lowered, one, nature, u)));
-                    (p.name.clone(), place.collect::<Value>())
-                });
-            let unknowns = others.iter().map(|&u| {
-                let name = lowered.system.unknowns[u].name.clone();
-                (name, pair(coordinate(lowered, one, nature, Some(u))))
-            });
-            json!({
-                "kind": name(nature),
-                "conjugate": match nature {
-                    Nature::Pair(other) => json!(other),
-                    _ => Value::Null,
-                },
-                "points": points.collect::<Map<String, Value>>(),
-                "unknowns": unknowns.collect::<Map<String, Value>>(),
-                "vanishing": vanishing(lowered, one).collect::<Vec<_>>(),
-            })
-        });
-    let counts = result.counts;
-    let value = json!({
-        "version": JSON_VERSION,
-        "verb": "complex",
-        "problem": problem.name,
-        "status": status(&result.status),
-        "bound": lowered.bound.as_ref().map(|bound| json!({
-            "count": bound.count as f64,
-            "source": bound.source,
-            "cited": bound.is_cited,
-        })),
-        "gauge": lowered.system.gauge,
-        "counts": {
-            "gauge": counts.gauge,
-            "rotation": counts.rotation,
-            "isometry": counts.isometry,
-            "certain": counts.certain,
-        },
-        "real": result.real().collect::<Vec<_>>(),
-        "infinite": result.infinite.len(),
-        "at_infinity": result.departures.iter().map(|one| json!({
-            "points": names(problem, &one.split.inside),
-            "cycle": names(problem, &one.split.cycle),
-            "figures": one.figures.len(),
-        })).collect::<Value>(),
-        "stopped": result.stopped,
-        "repeated": result.repeated,
-        "conjugates": result.conjugates,
-        "paths": result.effort.paths,
-        "tubes": result.effort.tubes,
-        "paths_proved": result.paths_proved,
-        "steps": result.effort.steps,
-        "double_steps": result.effort.double_steps,
-        "seconds": result.seconds,
-        "solutions": solutions.collect::<Value>(),
-    });
-    value.to_string()
+    text(&Complex::new(problem, lowered, result))
 }
 
 /// The result for people: what was found and what that means, then solutions, the real ones only unless `all`.

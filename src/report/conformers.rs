@@ -1,10 +1,10 @@
 //! The figures of a molecule as a chemist wants to see them.
 
 use super::columns::Grid;
+use super::document;
 use crate::import::{Conformer, Skeleton};
 use crate::order::InOrder;
 use crate::problem::Problem;
-use serde_json::{Value, json};
 
 /// So many torsions are columns of the table.
 const COLUMNS: usize = 12;
@@ -61,23 +61,12 @@ pub fn conformers_to_table(problem: &Problem, of: &Skeleton, all: &[Conformer]) 
 }
 
 /// The same for JSON, in the order of the solutions, with the atoms of each torsion.
-pub fn conformers_to_value(problem: &Problem, of: &Skeleton, all: &[Conformer]) -> Value {
-    let name = |&a: &usize| problem.points[a].name.as_str();
+pub fn conformers_told(
+    problem: &Problem,
+    of: &Skeleton,
+    all: &[Conformer],
+) -> Vec<document::Conformer> {
     let torsions = of.torsions();
-    let figures = all.iter().map(|one| {
-        let torsions = torsions.iter().zip(&one.torsions).map(|(four, degrees)| {
-            let atoms: Vec<&str> = four.iter().map(name).collect();
-            json!({"atoms": atoms, "degrees": degrees})
-        });
-        let contact = one.contact.map(|([a, b], apart, beyond)| {
-            json!({"atoms": [name(&a), name(&b)], "apart": apart, "beyond_radii": beyond})
-        });
-        json!({
-            "rmsd": one.rmsd,
-            "mirrored": one.is_mirrored,
-            "contact": contact,
-            "torsions": torsions.collect::<Vec<_>>(),
-        })
-    });
-    figures.collect()
+    let told = |one| document::Conformer::new(problem, &torsions, one);
+    all.iter().map(told).collect()
 }

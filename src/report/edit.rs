@@ -1,22 +1,16 @@
 //! Edits in words and tables, for people, and as JSON, for programs.
 
-use super::JSON_VERSION;
 use super::certain_digits;
 use super::columns::{self, DIGITS, written};
-use super::drawing::{Drawing, names};
-use super::json::{Coordinate, Points};
-use super::objects::joints_to_value;
+use super::document::{Named, names};
 use super::table::write_joints;
 use crate::blocks::{Account, Why, rounded_up};
-use crate::edit::{
-    Alone, Decomposition, Dimension, Drag, Dragged, Edited, Ending, Limit, Moved, Session,
-};
+use crate::edit::{Alone, Decomposition, Dimension, Dragged, Edited, Ending, Limit, Moved};
 use crate::interval::Interval;
 use crate::interval::vector::length;
 use crate::order::InOrder;
-use crate::problem::{Decimal, Object, Problem, Shape, counted, either, list};
+use crate::problem::{Object, Problem, Shape, counted, either, list};
 use crate::system::Located;
-use serde_json::{Map, Value, json};
 use std::fmt::Write;
 
 /// What is said of a sketch whose path has no figure with all dimensions: what comes of each of them alone. Empty if nothing is
@@ -47,27 +41,11 @@ pub fn alone_in_words(found: &[Alone]) -> String {
     text
 }
 
-/// The same for programs; see docs/using/programs.md.
-pub fn alone_to_value(found: &[Alone]) -> Value {
-    let one = |alone: &Alone| {
-        let dimension = &alone.edited.dimensions[0];
-        json!({
-            "dimension": alone.problem.dimension_name(dimension.index),
-            "ending": alone.edited.ending.name(),
-            "from": bounds(dimension.from),
-            "to": bounds(dimension.to),
-            "value": bounds(dimension.value),
-            "verdict": edit_in_words(&alone.problem, &alone.edited),
-        })
-    };
-    found.iter().map(one).collect()
-}
-
 /// The names of points, as people read them: `a, b and c`.
 pub(super) fn named(problem: &Problem, points: &[usize]) -> String {
     match names(problem, points).as_slice() {
         [] => String::new(),
-        [one] => (*one).to_owned(),
+        [one] => one.clone(),
         [first @ .., last] => format!("{} and {last}", first.join(", ")),
     }
 }
@@ -367,145 +345,6 @@ pub(super) fn write_points(
     columns::write_points(out, problem, points, |x| certain_digits(*x))
 }
 
-/// An edit as one line of JSON (docs/using/programs.md):
-///
-/// ```json
-/// {"problem": "...", "status": "reached", "words": "...", "reason": null, "stopped_kind": null, "t": [1.0, 1.0],
-///  "dimensions": {"a-b": [5.2, 5.2]}, "points": {"a": [[0.0, 0.0], [0.0, 0.0]]},
-///  "kept": [["a", "b", "c"]], "lost": [{"points": ["a", "b", "d"], "t": [0.31, 0.32]}],
-///  "flat": [], "limit": null, "moved": 0.0, "tubes": 3, "rejected": 0, "length": 1.0,
-///  "seconds": 0.0001, "switched_on": []}
-/// ```
-///
-/// Pairs are bounds. The points are in the coordinates of the problem. At a limit `limit` has `flat`, lists of
-/// points that are on one line or in one plane there, `flat_within`, and `motion`, a vector for each point.
-pub fn edit_to_json(problem: &Problem, edited: &Edited, moved: Moved) -> String {
-    edit_to_value(problem, edited, moved).to_string()
-}
-
-/// What [`edit_to_json`] writes, as a value in memory.
-pub fn edit_to_value(problem: &Problem, edited: &Edited, moved: Moved) -> Value {
-    let dimensions = edited.dimensions.iter().map(|d| {
-        let name = problem.dimension_name(d.index);
-        (name, bounds(d.value))
-    });
-    let stop = match &edited.ending {
-        Ending::Passes(stop) | Ending::Stopped(stop) => Some(stop),
-        Ending::Reached | Ending::Limit(_) => None,
-    };
-    let limit = match &edited.ending {
-        Ending::Limit(limit) => {
-            let flat: Vec<_> = limit.flat.iter().map(|f| names(problem, f)).collect();
-            let motion = problem.points.iter().zip(&limit.motion);
-            let motion = motion.map(|(p, v)| (p.name.clone(), json!(v[..problem.dimension])));
-            json!({
-                "flat": flat,
-                "flat_within": limit.flat_within,
-                "motion": motion.collect::<Map<_, _>>(),
-            })
-        }
-        _ => Value::Null,
-    };
-    let orientations = &edited.orientations;
-    let kept = orientations.kept.iter();
-    let kept = kept.map(|(points, _)| names(problem, points));
-    let lost = orientations
-        .lost
-        .iter()
-        .map(|lost| json!({"points": names(problem, &lost.points), "t": [lost.t.0, lost.t.1]}));
-    let flat = orientations.flat.iter().map(|f| names(problem, f));
-    let mut value = json!({
-        "version": JSON_VERSION,
-        "problem": problem.name,
-        "status": edited.ending.name(),
-        "words": edit_in_words(problem, edited),
-        "reason": stop.map(|stop| &stop.text),
-        "stopped_kind": stop.map(|stop| stop.kind.name()),
-        "t": [edited.t.0, edited.t.1],
-        "dimensions": dimensions.collect::<Map<_, _>>(),
-        "points": points_to_value(problem, &edited.points),
-        "kept": kept.collect::<Vec<_>>(),
-        "lost": lost.collect::<Vec<_>>(),
-        "flat": flat.collect::<Vec<_>>(),
-        "limit": limit,
-        "moved": moved.distance,
-        "tubes": edited.tubes,
-        "rejected": edited.rejected,
-        "length": edited.length,
-        "seconds": edited.seconds,
-        "switched_on": edited.switched_on,
-        "account": edited.account,
-    });
-    if let Some(dragged) = &edited.dragged {
-        let place = |(drag, off): &(Drag, Interval)| {
-            let to: Vec<f64> = drag.to.iter().map(Decimal::to_f64).collect();
-            let name = problem.points[drag.point].name.clone();
-            (name, json!({"to": to, "off": bounds(*off)}))
-        };
-        value["dragged"] = json!({
-            "places": dragged.places.iter().map(place).collect::<Map<_, _>>(),
-            "is_there": dragged.is_there,
-            "led": dragged.led,
-            "legs": dragged.legs,
-            "reason": dragged.stop.as_ref().map(|stop| &stop.text),
-        });
-    }
-    add_objects(&mut value, problem, &edited.objects, |x| x.mid());
-    value
-}
-
-/// Adds the values of unknown numbers, bodies with joints and joints of a figure to what is said of it, each number as `number` has it.
-pub(super) fn add_objects<C: Coordinate>(
-    value: &mut Value,
-    problem: &Problem,
-    objects: &[Located],
-    number: fn(&Interval) -> C,
-) {
-    let unknowns = numbers_to_value(problem, objects, true, number);
-    if unknowns.as_object().is_some_and(|all| !all.is_empty()) {
-        value["unknowns"] = unknowns;
-    }
-    if let Some(joints) = joints_to_value(problem, objects, number) {
-        value["joints"] = joints;
-    }
-}
-
-/// An edit as `krawl edit --json` writes it: with what is said of every problem (docs/using/programs.md, "The problem"), and with
-/// what the session knows besides. `problem` is the one that was opened.
-pub fn edit_to_document(problem: &Problem, edited: &Edited, session: &Session) -> Value {
-    let mut value = edit_to_value(problem, edited, session.moved());
-    // The session's figure is the new one where that was reached.
-    if edited.ending == Ending::Reached {
-        value["radii"] = numbers_to_value(problem, &session.objects(), false, |x| x.mid());
-    }
-    Drawing::in_place("edit", problem).with(value)
-}
-
-/// The figure of a session and its dimensions, as a value in memory.
-pub fn figure_to_value(session: &Session) -> Value {
-    let problem = session.problem();
-    let dimensions = problem
-        .dimensions()
-        .map(|index| (problem.dimension_name(index), bounds(session.length(index))));
-    json!({
-        "problem": problem.name,
-        "status": "figure",
-        "dimensions": dimensions.collect::<Map<_, _>>(),
-        "points": points_to_value(problem, &session.points()),
-        "moved": session.moved().distance,
-    })
-}
-
-/// A map from names to pairs of bounds.
-pub(super) fn points_to_value(problem: &Problem, points: &[[Interval; 3]]) -> Value {
-    json!(Points(problem, points.to_vec()))
-}
-
-/// A pair of bounds.
-pub(super) fn bounds(x: Interval) -> Value {
-    json!(x.written())
-}
-
 /// What a claim about a figure was proved of, as lines under its table; none where that is the figure as it is.
 pub fn account_in_words(account: &Account) -> String {
     let mut out = String::new();
@@ -611,20 +450,16 @@ fn own<'a>(
 }
 
 /// The radii of circles, or the values of unknown numbers, by name, each as `number` has it.
-pub(super) fn numbers_to_value<C: Coordinate>(
+pub(super) fn numbers_of<C>(
     problem: &Problem,
     objects: &[Located],
     are_unknowns: bool,
     number: fn(&Interval) -> C,
-) -> Value {
+) -> Named<C> {
     let objects = own(problem, objects);
     let objects = objects.filter(|(o, _)| matches!(o.shape, Shape::Number { .. }) == are_unknowns);
-    let all: Map<String, Value> = objects
-        .filter_map(|(object, at)| {
-            Some((object.name.clone(), json!(number(&at.number()?).written())))
-        })
-        .collect();
-    Value::Object(all)
+    let all = objects.filter_map(|(object, at)| Some((object.name.clone(), number(&at.number()?))));
+    Named(all.collect())
 }
 
 /// The radii of circles, the values of unknown numbers, bodies with joints and joints, a line each.

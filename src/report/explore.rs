@@ -1,19 +1,16 @@
 //! What came of exploring, for people and for programs.
 
 use super::columns::{DIGITS, write_digits, written};
-use super::drawing::Drawing;
-use super::json::{
-    Points, WrittenFold, WrittenSample, text, value, written_folds, written_samples,
+use super::document::{
+    self, Counts, Document, Drawing, FigureFound, Fold, Origin, PathFollowed, Points, Publication,
+    Sample, Verb, points,
 };
-use crate::explore::{Class, End, Explorer, Finish, PathRecord, intervals};
+use crate::explore::{Class, End, Explorer, Finish, intervals};
 use crate::interval::Interval;
 use crate::interval::vector::{cross, dot};
 use crate::places::{Each as _, array};
 use crate::problem::{Problem, Published, counted};
 use crate::track::{Outcome, Trace};
-use serde::Serialize;
-use serde_json::{Value, json};
-use std::collections::BTreeMap;
 use std::fmt::Write;
 
 /// What is known of all real solutions, by other means.
@@ -79,22 +76,6 @@ fn middles<'p>(points: impl Iterator<Item = &'p [Interval; 3]>) -> impl Iterator
     points.flatten().map(|x| x.mid())
 }
 
-/// Numbers of paths by how they ended.
-#[derive(Debug, Clone, Default, PartialEq, Serialize)]
-struct Counts {
-    followed: usize,
-    closed: usize,
-    open: usize,
-    stopped: usize,
-    recognised: usize,
-    unusable: usize,
-    repeated: u64,
-    waiting: usize,
-    in_units: usize,
-    degenerate: usize,
-    tubes: usize,
-}
-
 /// Points are in one plane where none is farther from it, in parts of the figure's size: in floats.
 const FLAT: f64 = 1e-9;
 
@@ -146,19 +127,32 @@ impl Explored<'_> {
         )
     }
 
-    /// Where a sketch comes from, in words.
-    fn origin(&self, id: u64) -> String {
-        match self.explorer.contents().sketches.get(&id) {
-            Some(sketch) => match sketch.from {
-                None => "the drawn sketch".to_owned(),
-                Some((class, branch)) => format!("solution {}, branch {branch}", class + 1),
-            },
-            None => String::new(),
-        }
+    fn traced(&self, id: u64) -> Option<&TracedPath> {
+        self.traced.iter().find(|path| path.id == id)
     }
 
-    fn path(&self, id: u64) -> Option<&PathRecord> {
-        self.explorer.contents().paths.get(&id)
+    /// A path that found a solution.
+    fn followed(&self, id: u64) -> Option<PathFollowed> {
+        let contents = self.explorer.contents();
+        let (sketch, path) = (contents.sketches.get(&id)?, contents.paths.get(&id)?);
+        let (problem, way) = (self.problem(), self.explorer.way(sketch.way));
+        let trace = self.traced(id).map(|path| &path.trace);
+        let own = problem.points.iter();
+        let own = own.map(|p| p.sketch.each_ref().each(|x| x.to_f64()));
+        let places = sketch.places();
+        let places = places.map_or_else(|| own.collect(), <[[f64; 3]]>::to_vec);
+        Some(PathFollowed {
+            status: path.end.name().to_owned(),
+            from: sketch
+                .from
+                .map(|(solution, branch)| Origin { solution, branch }),
+            sketch: Points::each(problem, &places, |x| x + 0.0),
+            bend: problem.distance_name(way.bend),
+            bend_coefficient: way.coefficient.to_string(),
+            tubes: path.tubes,
+            folds: trace.map(|trace| Fold::all(problem, trace)),
+            samples: trace.map(|trace| Sample::all(problem, trace, self.samples)),
+        })
     }
 }
 
@@ -279,20 +273,18 @@ fn write_table(out: &mut String, explored: &Explored, coordinates: bool) -> std:
         )?;
     }
     for class in &contents.classes {
-        let end = explored.path(class.path).map_or("", |path| path.end.name());
-        let way = contents
-            .sketches
-            .get(&class.path)
-            .map(|s| explored.explorer.way(s.way));
-        let bend = way.map_or(String::new(), |way| {
-            format!("{} by {}", problem.distance_name(way.bend), way.coefficient)
-        });
+        let Some(path) = explored.followed(class.path) else {
+            continue;
+        };
         writeln!(
             out,
-            "{:>8}  {:>6}  {end:<10}  {:<24}  {bend}",
+            "{:>8}  {:>6}  {:<10}  {:<24}  {} by {}",
             class.id + 1,
             class.path,
-            explored.origin(class.path)
+            path.status,
+            path.origin(),
+            path.bend,
+            path.bend_coefficient
         )?;
     }
     if coordinates {
@@ -305,129 +297,36 @@ fn write_table(out: &mut String, explored: &Explored, coordinates: bool) -> std:
     Ok(())
 }
 
-#[derive(Serialize)]
-struct Document<'a> {
-    #[serde(flatten)]
-    drawing: Drawing<'a>,
-    /// `null`: nothing was run.
-    status: Option<&'static str>,
-    verdict: String,
-    solutions: Vec<Entry<'a>>,
-    paths: BTreeMap<String, Path<'a>>,
-    counts: Counts,
-    undecided: u64,
-    ways: usize,
-    all_real: Option<usize>,
-    published: Vec<Value>,
-    seconds: f64,
-}
-
-#[derive(Serialize)]
-struct Entry<'a> {
-    points: Points<'a, [Interval; 3]>,
-    flat: bool,
-    path: u64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    arc: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    folds: Option<usize>,
-}
-
-#[derive(Serialize)]
-struct Path<'a> {
-    status: &'static str,
-    from: Option<Value>,
-    sketch: Points<'a, [f64; 3]>,
-    bend: String,
-    bend_coefficient: String,
-    tubes: usize,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    folds: Option<Vec<WrittenFold<'a>>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    samples: Option<Vec<WrittenSample<'a>>>,
-}
-
-/// The result as one line of JSON; docs/using/explore.md and docs/schema/explore.schema.json describe it.
-pub fn explore_to_json(explored: &Explored) -> String {
-    text(&document(explored))
-}
-
-/// What [`explore_to_json`] writes, as a value in memory.
-pub fn explore_to_value(explored: &Explored) -> serde_json::Value {
-    value(&document(explored))
-}
-
-fn document<'a>(explored: &'a Explored) -> Document<'a> {
-    let (problem, contents) = (explored.problem(), explored.explorer.contents());
-    let traced = |id: u64| explored.traced.iter().find(|path| path.id == id);
-    let mut paths = BTreeMap::new();
-    for class in &contents.classes {
-        let (Some(sketch), Some(path)) = (
-            contents.sketches.get(&class.path),
-            contents.paths.get(&class.path),
-        ) else {
-            continue;
-        };
-        let way = explored.explorer.way(sketch.way);
-        let own = problem.points.iter();
-        let own = own.map(|p| p.sketch.each_ref().each(|x| x.to_f64()));
-        paths.insert(
-            class.path.to_string(),
-            Path {
-                status: path.end.name(),
-                from: sketch
-                    .from
-                    .map(|(solution, branch)| json!({"solution": solution, "branch": branch})),
-                sketch: Points(
-                    problem,
-                    sketch
-                        .places()
-                        .map_or_else(|| own.collect(), <[[f64; 3]]>::to_vec),
-                ),
-                bend: problem.distance_name(way.bend),
-                bend_coefficient: way.coefficient.to_string(),
-                tubes: path.tubes,
-                folds: traced(class.path).map(|path| written_folds(problem, &path.trace)),
-                samples: traced(class.path)
-                    .map(|path| written_samples(problem, &path.trace, explored.samples)),
+impl Document {
+    /// What came of exploring; docs/using/explore.md and docs/schema/explore.schema.json describe it.
+    pub fn explore(explored: &Explored) -> Document {
+        let (problem, contents) = (explored.problem(), explored.explorer.contents());
+        let solutions = contents.classes.iter().map(|class| {
+            let place = explored.traced(class.path);
+            let place = place.and_then(|path| path.place_of(class));
+            let points = points(problem, &intervals(&class.points));
+            FigureFound::new(points, is_flat(problem, class), class.path, place)
+        });
+        let paths = contents.classes.iter();
+        let paths = paths.filter_map(|class| Some((class.path, explored.followed(class.path)?)));
+        let published = explored.published.iter();
+        let published = published
+            .filter_map(|published| Some(Publication::new(published, published.solutions?)));
+        let own = document::Explored {
+            status: explored.finish.map(|finish| finish.name().to_owned()),
+            verdict: explored.verdict(),
+            solutions: solutions.collect(),
+            paths: paths.collect(),
+            counts: explored.counts(),
+            undecided: contents.state.undecided,
+            ways: contents.state.ways,
+            all_real: match explored.all_real {
+                AllReal::Proved(all) => Some(all),
+                AllReal::Unknown(_) => None,
             },
-        );
-    }
-    Document {
-        drawing: Drawing::new("explore", problem),
-        status: explored.finish.map(Finish::name),
-        verdict: explored.verdict(),
-        solutions: contents
-            .classes
-            .iter()
-            .map(|class| {
-                let place = traced(class.path).and_then(|path| path.place_of(class));
-                Entry {
-                    points: Points(problem, intervals(&class.points)),
-                    flat: is_flat(problem, class),
-                    path: class.path,
-                    arc: place.map(|(arc, _)| arc),
-                    folds: place.and_then(|(_, folds)| folds),
-                }
-            })
-            .collect(),
-        paths,
-        counts: explored.counts(),
-        undecided: contents.state.undecided,
-        ways: contents.state.ways,
-        all_real: match explored.all_real {
-            AllReal::Proved(all) => Some(all),
-            AllReal::Unknown(_) => None,
-        },
-        published: explored
-            .published
-            .iter()
-            .filter_map(|published| {
-                let solutions = published.solutions?;
-                let (method, seconds) = (&published.method, published.seconds);
-                Some(json!({"method": method, "solutions": solutions, "seconds": seconds}))
-            })
-            .collect(),
-        seconds: contents.state.seconds,
+            published: published.collect(),
+            seconds: contents.state.seconds,
+        };
+        Document::of(Drawing::in_gauge("explore", problem), Verb::Explore(own))
     }
 }

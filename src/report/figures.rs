@@ -1,14 +1,11 @@
 //! The figures of a sketch in its own frame, as its blocks give them.
 
 use super::columns::{DIGITS, written};
-use super::drawing::Drawing;
-use super::edit::{
-    add_objects, behind, numbers_to_value, points_to_value, write_numbers, write_points,
-};
+use super::document::SensesOf;
+use super::edit::{behind, write_numbers, write_points};
 use super::supposed::{signs_not_looked_at, supposed};
 use crate::blocks::{BlockAccount, Comparison, Figures, First, Sense, Way};
 use crate::problem::{Shape, counted, list};
-use serde_json::{Value, json};
 use std::fmt::Write;
 
 /// Figures that are listed in a table: as long as they fit in so many lines.
@@ -309,7 +306,7 @@ fn write_figures(out: &mut String, figures: &Figures, listed: Listed) -> std::fm
 }
 
 /// The names of the senses of a figure that stand to the sketch's in some way, each once.
-fn named(senses: &[Sense], compared: &[Comparison], how: Comparison) -> Vec<String> {
+pub(super) fn named(senses: &[Sense], compared: &[Comparison], how: Comparison) -> Vec<String> {
     let mut out: Vec<String> = Vec::new();
     for (sense, _) in senses.iter().zip(compared).filter(|(_, c)| **c == how) {
         if !out.contains(&sense.name) {
@@ -323,18 +320,17 @@ fn write_senses(out: &mut String, figures: &Figures, number: u64) -> std::fmt::R
     let Some(senses @ [_, ..]) = figures.senses() else {
         return Ok(());
     };
-    let compared = figures.compared(number);
-    if compared.iter().all(|c| *c == Comparison::Same) {
+    let told = SensesOf::new(senses, &figures.compared(number));
+    if told.as_in_sketch == Some(true) {
         return writeln!(out, "  senses as in the sketch");
     }
-    for (how, what) in [
-        (Comparison::Other, "turned the other way"),
-        (Comparison::Flat, "flat, without a sense"),
-        (Comparison::Undecided, "not certain which way"),
+    for (names, what) in [
+        (&told.other, "turned the other way"),
+        (&told.flat, "flat, without a sense"),
+        (&told.undecided, "not certain which way"),
     ] {
-        let names = named(senses, &compared, how);
         if !names.is_empty() {
-            writeln!(out, "  {what}: {}", list(&names, LISTED))?;
+            writeln!(out, "  {what}: {}", list(names, LISTED))?;
         }
     }
     Ok(())
@@ -360,17 +356,24 @@ fn write_blocks(out: &mut String, figures: &Figures) -> std::fmt::Result {
     Ok(())
 }
 
-/// `2 unknowns: x of d, y of d: by formula, 2 solutions`.
-fn block_in_words(account: &BlockAccount) -> String {
+/// `by formula, 2 solutions`.
+pub(super) fn solved_in_words(account: &BlockAccount) -> String {
     let (low, high) = account.solutions;
     let solutions = match low == high {
         true => counted(high, "solution"),
         false => format!("{low} to {}", counted(high, "solution")),
     };
-    let way = match account.way {
-        Way::Formula => "by formula".to_owned(),
-        Way::Path => format!("its path of {}", counted(account.tubes, "tube")),
-    };
+    match account.way {
+        Way::Formula => format!("by formula, {solutions}"),
+        Way::Path => format!(
+            "its path of {}, {solutions}",
+            counted(account.tubes, "tube")
+        ),
+    }
+}
+
+/// `2 unknowns: x of d, y of d: by formula, 2 solutions`.
+fn block_in_words(account: &BlockAccount) -> String {
     let runs = match account.runs {
         1 => String::new(),
         n => format!(", for {n} figures of the blocks before"),
@@ -378,9 +381,10 @@ fn block_in_words(account: &BlockAccount) -> String {
     let doubt = account.doubt.as_ref();
     let doubt = doubt.map_or(String::new(), |why| format!("; {why}"));
     format!(
-        "{}: {}: {way}, {solutions}{runs}{doubt}",
+        "{}: {}: {}{runs}{doubt}",
         counted(account.unknowns.len(), "unknown"),
-        list(&account.unknowns, LISTED)
+        list(&account.unknowns, LISTED),
+        solved_in_words(account)
     )
 }
 
@@ -391,77 +395,4 @@ pub(super) fn chosen_in_words(chosen: impl Iterator<Item = (usize, usize, bool)>
         format!("block {} solution {}{mirrored}", block + 1, solution + 1)
     });
     each.collect::<Vec<_>>().join(", ")
-}
-
-/// The figures as a value for programs (docs/using/programs.md, docs/schema/figures.schema.json).
-pub fn figures_to_value(figures: &Figures, listed: Listed) -> Value {
-    let problem = figures.problem();
-    let count = figures.count();
-    let numbers = listed.numbers(count.unwrap_or(u64::MAX), IN_JSON);
-    let of_number = |number: u64| {
-        let (points, objects) = figures.figure(number);
-        let chosen = figures.chosen(number);
-        let chosen = chosen
-            .iter()
-            .map(|(block, solution)| json!({"block": block, "solution": solution}));
-        let mut value = json!({
-            "number": number,
-            "choices": chosen.collect::<Vec<_>>(),
-            "points": points_to_value(problem, &points),
-            "radii": numbers_to_value(problem, &objects, false, |x| *x),
-            "senses": senses_to_value(figures, number),
-        });
-        add_objects(&mut value, problem, &objects, |x| *x);
-        value
-    };
-    let senses = figures.senses().map(|senses| {
-        let with = figures.with_senses();
-        json!({
-            "names": senses.iter().map(|sense| &sense.name).collect::<Vec<_>>(),
-            "kept": with.map(|with| with.proved),
-            "undecided": with.map(|with| with.undecided),
-        })
-    });
-    let refused = figures.refused();
-    let refused = refused.map(|(name, n)| json!({"name": name, "figures": n}));
-    let doubt = figures.doubt();
-    let status = match (&doubt, count, figures.has_paths()) {
-        (Some(_), ..) => "stopped",
-        (None, _, false) if figures.meets_all() => "complete",
-        (None, ..) => "combined",
-    };
-    let own = json!({
-        "mode": "certified",
-        "status": status,
-        "reason": doubt,
-        "verdict": figures_in_words(figures),
-        "count": count,
-        "blocks": figures.blocks().collect::<Vec<_>>(),
-        "account": figures.account(),
-        "refused": refused.collect::<Vec<_>>(),
-        "senses": senses,
-        "figures": numbers.map(of_number).collect::<Vec<_>>(),
-    });
-    Drawing::in_place("solve", problem).with(own)
-}
-
-/// How the senses of a figure stand to the sketch's; nothing where none is looked at.
-fn senses_to_value(figures: &Figures, number: u64) -> Value {
-    let Some(senses) = figures.senses() else {
-        return Value::Null;
-    };
-    let compared = figures.compared(number);
-    let named = |how| named(senses, &compared, how);
-    let has = |how| compared.contains(&how);
-    let as_in_sketch = match has(Comparison::Other) || has(Comparison::Flat) {
-        true => Some(false),
-        false if has(Comparison::Undecided) => None,
-        false => Some(true),
-    };
-    json!({
-        "as_in_sketch": as_in_sketch,
-        "other": named(Comparison::Other),
-        "flat": named(Comparison::Flat),
-        "undecided": named(Comparison::Undecided),
-    })
 }

@@ -2,7 +2,6 @@
 
 use crate::import::Followed;
 use crate::problem::Problem;
-use serde_json::{Value, json};
 
 /// Warnings, a line of text each.
 pub fn warnings_in_words(warnings: &[String]) -> String {
@@ -22,19 +21,4 @@ pub fn followed_to_table(problem: &Problem, followed: &Followed) -> String {
         )
     });
     lines.collect::<String>() + &warnings_in_words(&followed.warnings)
-}
-
-/// The same for programs, into the result of an edit; see docs/using/programs.md.
-pub fn followed_to_value(problem: &Problem, followed: &Followed, edit: &mut Value) {
-    let one = |follower: &crate::import::Follower| {
-        json!({
-            "dimension": problem.dimension_name(follower.index),
-            "value": follower.value.to_f64(),
-            "expression": follower.expression,
-        })
-    };
-    if !followed.set.is_empty() {
-        edit["followed"] = followed.set.iter().map(one).collect();
-    }
-    edit["warnings"] = followed.warnings.clone().into();
 }

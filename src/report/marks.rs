@@ -11,7 +11,7 @@ const MOST: usize = 5000;
 
 /// Sets of joined points and their signs in the sketch.
 #[derive(Debug)]
-pub(super) struct Marks {
+pub struct Marks {
     /// Three points in the plane, four in space.
     pub sets: Vec<Vec<usize>>,
     /// The signs of their orientations in the sketch; 0: flat, or too near to it to tell.

@@ -1,10 +1,10 @@
 //! What is measured of figures: lengths, angles, coordinates, areas and numbers of objects that no constraint has to give.
 
 use super::certain_digits;
+use super::document::Measured;
 use crate::interval::Interval;
 use crate::problem::{Problem, Shape};
 use crate::system::{Located, Quantity, with_a_name};
-use serde_json::{Value, json};
 use std::fmt::Write;
 
 /// A figure: enclosures of its points, and where its objects are.
@@ -155,14 +155,15 @@ impl Measures {
         self.all.iter().map(|measure| measure.of(figure)).collect()
     }
 
-    /// For JSON: a list of the measures, each with its name and bounds for each figure.
-    pub fn to_value<'f>(&self, figures: impl Iterator<Item = Placed<'f>> + Clone) -> Value {
-        let all = self.all.iter().map(|measure| {
-            let values = figures.clone().map(|figure| {
-                let value = measure.of(figure);
-                json!([value.inf(), value.sup()])
-            });
-            json!({"name": measure.name(), "values": values.collect::<Vec<_>>()})
+    /// For JSON: the measures, each with its bounds for each figure.
+    pub fn told<'f>(&self, figures: impl Iterator<Item = Placed<'f>> + Clone) -> Vec<Measured> {
+        let all = self.all.iter().map(|measure| Measured {
+            name: measure.name().to_owned(),
+            values: figures
+                .clone()
+                .map(|figure| measure.of(figure))
+                .map(|value| [Some(value.inf()), Some(value.sup())])
+                .collect(),
         });
         all.collect()
     }

@@ -1,6 +1,5 @@
 //! What people and programs get to see of a run.
 
-#[cfg(feature = "cli")]
 mod blocks;
 mod columns;
 mod comparison;
@@ -8,22 +7,21 @@ mod complete;
 mod complex;
 mod conformers;
 mod digits;
-mod drawing;
+pub mod document;
 mod edit;
 #[cfg(feature = "explore")]
 mod explore;
 mod figures;
 mod followed;
-mod json;
 mod marks;
 mod measured;
 mod motion;
-mod objects;
 pub mod page;
 #[cfg(feature = "cli")]
 pub mod picture;
 #[cfg(feature = "cli")]
 mod progress;
+mod run;
 mod supposed;
 mod sweep;
 mod table;
@@ -31,53 +29,42 @@ mod theorem;
 mod tolerance;
 
 #[cfg(feature = "cli")]
-pub(crate) use drawing::names;
+pub(crate) use document::names;
 
 #[doc(inline)]
 pub use crate::interval::certain_digits;
-#[cfg(feature = "cli")]
 pub use blocks::BlockRuns;
 #[cfg(feature = "cli")]
 pub use comparison::comparisons_to_csv;
 pub use comparison::{Compared, comparison_to_table, comparisons_to_json};
-pub use complete::{
-    among_in_words, complete_to_json, complete_to_json_with, complete_to_table, complete_to_value,
-    cover_theorem,
-};
+pub use complete::{among_in_words, complete_to_table, cover_theorem};
 pub use complex::{complex_set_theorem, complex_to_json, complex_to_table};
-pub use conformers::{conformers_to_table, conformers_to_value};
-pub use digits::{digits_to_table, digits_to_value};
+pub use conformers::{conformers_to_table, conformers_told};
+pub use digits::digits_to_table;
+pub use document::{Document, JSON_VERSION};
 pub use edit::{
-    account_in_words, alone_in_words, alone_to_value, decomposition_in_words, edit_in_words,
-    edit_to_document, edit_to_json, edit_to_table, edit_to_value, figure_to_value,
+    account_in_words, alone_in_words, decomposition_in_words, edit_in_words, edit_to_table,
     freedom_of_sketch_in_words, limit_in_words,
 };
 #[cfg(feature = "explore")]
-pub use explore::{
-    AllReal, Explored, TracedPath, explore_to_json, explore_to_table, explore_to_value,
-};
-pub use figures::{
-    Listed, figures_in_words, figures_to_summary, figures_to_table, figures_to_value,
-    first_in_words,
-};
-pub use followed::{followed_to_table, followed_to_value, warnings_in_words};
-pub use json::{Beside, JSON_VERSION, Run};
+pub use explore::{AllReal, Explored, TracedPath, explore_to_table};
+pub use figures::{Listed, figures_in_words, figures_to_summary, figures_to_table, first_in_words};
+pub use followed::{followed_to_table, warnings_in_words};
 pub use measured::{Measures, Placed};
-pub use motion::{motion_in_words, motion_to_csv, motion_to_table, motion_to_value};
+pub use motion::{motion_in_words, motion_to_csv, motion_to_table};
 #[cfg(feature = "cli")]
 pub use progress::ProgressLine;
+pub use run::Run;
 pub use supposed::{signs_not_looked_at, signs_of_figure};
-pub use sweep::{
-    frames_to_csv, ranges_to_table, ranges_to_value, sweep_in_words, sweep_to_csv, sweep_to_value,
-};
+pub use sweep::{frames_to_csv, ranges_to_table, sweep_in_words, sweep_to_csv};
 pub use table::{
     part_in_words, signed_in_words, to_first_table, to_no_first, to_short_table, to_summary,
     to_table,
 };
 pub use theorem::theorem;
 pub use tolerance::{
-    tolerance_set_in_words, tolerance_set_to_table, tolerance_set_to_value, tolerances_in_words,
-    tolerances_to_csv, tolerances_to_table, tolerances_to_value,
+    tolerance_set_in_words, tolerance_set_to_table, tolerances_in_words, tolerances_to_csv,
+    tolerances_to_table,
 };
 
 #[cfg(test)]
@@ -129,12 +116,11 @@ mod tests {
 
     fn to_json(problem: &Problem, outcome: &Outcome) -> String {
         let options = Options::certified();
-        let run = Run::new(problem, &options, outcome);
-        assert_eq!(
-            serde_json::from_str::<Value>(&run.to_json()).unwrap(),
-            run.to_value()
-        );
-        run.to_json()
+        let written = Document::solve(&Run::new(problem, &options, outcome));
+        let read: Document = serde_json::from_str(&written.to_json()).unwrap();
+        let value = |document: &Document| serde_json::to_value(document).unwrap();
+        assert_eq!(value(&read), value(&written));
+        written.to_json()
     }
 
     #[test]

@@ -2,16 +2,14 @@
 
 use super::certain_digits;
 use super::columns::Grid;
-use super::drawing::{Drawing, names};
-use super::edit::{bounds, points_to_value};
+use super::document::names;
 use super::measured::Measures;
 use super::sweep::frames_to_csv;
 use crate::blocks::rounded_up;
 use crate::edit::WayEnd;
 use crate::interval::{Interval, point};
-use crate::motion::{Bounds, Extreme, Measured, Motion};
+use crate::motion::{Bounds, Measured, Motion};
 use crate::problem::counted;
-use serde_json::{Value, json};
 use std::fmt::Write;
 
 /// What kind of motion it is, a sentence.
@@ -117,7 +115,7 @@ fn end_of(value: Interval, word: &str, outer: f64) -> String {
 }
 
 /// Where a motion ends, and why.
-fn end_in_words(end: &WayEnd) -> String {
+pub(super) fn end_in_words(end: &WayEnd) -> String {
     let reason = end.words.trim_end_matches('.');
     match end.kind {
         "singular" => format!(
@@ -126,48 +124,6 @@ fn end_in_words(end: &WayEnd) -> String {
         "infinite" => format!("followed until {reason}"),
         _ => reason.to_owned(),
     }
-}
-
-/// A motion as a value in memory, as `krawl motion --json` writes it (docs/using/robots.md).
-pub fn motion_to_value(motion: &Motion) -> Value {
-    let problem = &motion.problem;
-    let points = |points: &[_]| points_to_value(problem, points);
-    let extreme = |end: &Extreme| json!({"value": bounds(end.value), "at": end.at, "points": points(&end.points)});
-    let measured = motion.measured.iter().map(|measured| {
-        let mut out =
-            json!({"name": measured.name, "unit": measured.unit, "first": bounds(measured.first)});
-        match &measured.bounds {
-            Bounds::Between { least, most } => {
-                out["least"] = extreme(least);
-                out["greatest"] = extreme(most);
-            }
-            Bounds::AllTheWay(turns) => out["turns"] = json!(turns),
-            Bounds::Untold => {}
-        }
-        out
-    });
-    let status = match (motion.is_loop(), motion.is_told()) {
-        (true, _) => "closed",
-        (_, true) => "open",
-        _ => "stopped",
-    };
-    let ends = motion.ends.iter();
-    let ends = ends.map(|end| json!({"kind": end.kind, "words": end_in_words(end)}));
-    let frames = motion.frames.iter();
-    let frames = frames.map(|frame| json!({"at": frame.at, "points": points(&frame.points)}));
-    Drawing::in_place("motion", problem).with(json!({
-        "freed": motion.freed,
-        "driver": motion.driver.map(|p| &problem.points[p].name),
-        "status": status,
-        "words": motion_in_words(motion),
-        "standing": names(problem, &motion.standing),
-        "tubes": motion.tubes,
-        "moved": motion.moved,
-        "account": motion.account,
-        "ends": ends.collect::<Vec<_>>(),
-        "measured": measured.collect::<Vec<_>>(),
-        "frames": frames.collect::<Vec<_>>(),
-    }))
 }
 
 /// The frames of a motion as CSV: the way up to each, the coordinates of all points, as floats, and what is measured.

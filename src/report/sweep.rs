@@ -2,17 +2,11 @@
 
 use super::certain_digits;
 use super::columns::{Grid, written};
-use super::drawing::{Drawing, names};
-use super::edit::{
-    behind, bounds, edit_in_words, edit_to_value, limit_in_words, points_to_value, short,
-    write_moved,
-};
+use super::edit::{behind, edit_in_words, limit_in_words, short, write_moved};
 use super::measured::{Measures, Placed};
-use super::objects::joints_to_value;
 use crate::edit::{Edited, End, Ending, Moved, Range, Sweep};
 use crate::interval::Interval;
 use crate::problem::Problem;
-use serde_json::{Map, Value, json};
 use std::fmt::Write;
 
 /// The ranges of dimensions as a table.
@@ -100,31 +94,8 @@ fn value_of(end: &End, beyond: &str) -> String {
     }
 }
 
-/// The ranges as a value in memory, as `krawl limits --json` writes it (docs/using/programs.md).
-pub fn ranges_to_value(problem: &Problem, ranges: &[Range], moved: Moved) -> Value {
-    let end = |end: &End, figure: &[[Interval; 3]]| match end {
-        End::Limit(value, limit) => {
-            let flat: Vec<Vec<&str>> = limit.flat.iter().map(|f| names(problem, f)).collect();
-            json!({"status": "limit", "value": bounds(*value), "flat": flat,
-                   "words": limit_in_words(problem, limit), "points": points_to_value(problem, figure)})
-        }
-        End::Beyond(value) => json!({"status": "reached", "value": bounds(*value)}),
-        End::Unknown(value, reason) => {
-            json!({"status": "stopped", "value": bounds(*value), "reason": reason})
-        }
-    };
-    let ranges = ranges.iter().map(|range| {
-        let value =
-            json!({"constraint": range.index, "value": bounds(range.value),
-                   "account": range.account, "low": end(&range.low, &range.low_figure), "high": end(&range.high, &range.high_figure)});
-        (problem.dimension_name(range.index), value)
-    });
-    let ranges: Map<String, Value> = ranges.collect();
-    Drawing::in_place("limits", problem).with(json!({"moved": moved.distance, "ranges": ranges}))
-}
-
 /// The edit that a sweep did not get over, if there is one.
-fn obstacle(sweep: &Sweep) -> Option<&Edited> {
+pub(super) fn obstacle(sweep: &Sweep) -> Option<&Edited> {
     match &sweep.approach.ending {
         Ending::Reached => sweep.end.as_ref(),
         _ => Some(&sweep.approach),
@@ -148,28 +119,6 @@ pub fn sweep_in_words(problem: &Problem, index: usize, sweep: &Sweep) -> String 
         format!(" {}", edit_in_words(problem, edited))
     });
     format!("{}: {frames}.{end}", problem.name)
-}
-
-/// A sweep as a value in memory, as `krawl sweep --json` writes it (docs/using/programs.md).
-pub fn sweep_to_value(problem: &Problem, index: usize, sweep: &Sweep) -> Value {
-    let frames = sweep.frames.iter().map(|frame| {
-        let mut value =
-            json!({"value": bounds(frame.value), "points": points_to_value(problem, &frame.points)});
-        if let Some(joints) = joints_to_value(problem, &frame.objects, |x| *x) {
-            value["joints"] = joints;
-        }
-        value
-    });
-    let end = obstacle(sweep);
-    Drawing::in_place("sweep", problem).with(json!({
-        // In place of the 2 or 3 of other results, which the sketch tells too.
-        "dimension": problem.dimension_name(index),
-        "status": end.map_or("reached", |edited| edited.ending.name()),
-        "words": sweep_in_words(problem, index, sweep),
-        "frames": frames.collect::<Vec<_>>(),
-        "account": sweep.account,
-        "end": end.map(|edited| edit_to_value(problem, edited, Moved::default())),
-    }))
 }
 
 /// A sweep as CSV: the dimension's value, then the coordinates of all points, as floats, and what is measured.

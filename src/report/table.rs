@@ -3,7 +3,7 @@
 use super::certain_digits;
 use super::columns::{DIGITS, write_points, written};
 use super::complete::{signs_in_words, tested_in_words};
-use super::drawing::names;
+use super::document::names;
 use super::marks::Marks;
 use crate::complete::Tested;
 use crate::constraint::{Symmetry, symmetry};

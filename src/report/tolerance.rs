@@ -2,15 +2,12 @@
 
 use super::certain_digits;
 use super::complete::{both_ways_in_words, counted_once, why};
-use super::drawing::Drawing;
-use super::edit::{bounds, points_to_value};
 use super::sweep::quoted;
 use crate::complete::Why;
 use crate::edit::Limits;
 use crate::order::InOrder;
 use crate::problem::{Problem, counted, either};
 use crate::tolerance::{Measured, Set, Study};
-use serde_json::{Value, json};
 use std::fmt::Write;
 
 /// What is proved, a sentence.
@@ -109,40 +106,13 @@ pub fn tolerance_set_to_table(problem: &Problem, set: &Set) -> String {
 }
 
 /// Why it is not decided what figures there are, for some choices of dimensions.
-fn why_within(reason: Why) -> &'static str {
+pub(super) fn why_within(reason: Why) -> &'static str {
     match reason {
         Why::Small => {
             "figures may come together or vanish there for some choices, or the limits are too wide for a proof"
         }
         other => why(other),
     }
-}
-
-/// All figures as a value in memory, as `krawl tolerance --all --json` writes it (docs/using/cad.md).
-pub fn tolerance_set_to_value(problem: &Problem, set: &Set) -> Value {
-    let figures = set.figures.iter().map(|figure| {
-        let bands = points_to_value(problem, &figure.bands);
-        match &figure.study {
-            Ok(study) => json!({
-                "bands": bands,
-                "figure": points_to_value(problem, &study.figure),
-                "measured": measured_to_value(study),
-            }),
-            Err(why) => json!({"bands": bands, "reason": why}),
-        }
-    });
-    let undecided = set.undecided.iter().map(
-        |part| json!({"reason": why_within(part.why), "parts": part.count, "share": part.share}),
-    );
-    Drawing::in_place("tolerance", problem).with(json!({
-        "status": if set.undecided.is_empty() { "complete" } else { "partial" },
-        "words": tolerance_set_in_words(problem, set),
-        "account": set.account,
-        "limits": limits_to_value(problem, &set.limits),
-        "both_ways": set.both_ways,
-        "undecided": undecided.collect::<Vec<_>>(),
-        "figures": figures.collect::<Vec<_>>(),
-    }))
 }
 
 fn write_measured(
@@ -235,44 +205,6 @@ pub(super) fn rounded(x: f64, to: impl Fn(f64) -> f64) -> String {
     }
     // Not −0.
     format!("{:.*}", places as usize, shown + 0.0)
-}
-
-/// The study as a value in memory, as `krawl tolerance --json` writes it (docs/using/cad.md).
-pub fn tolerances_to_value(problem: &Problem, study: &Study) -> Value {
-    Drawing::in_place("tolerance", problem).with(json!({
-        "status": "proved",
-        "words": tolerances_in_words(problem, study),
-        "account": study.account,
-        "limits": limits_to_value(problem, &study.limits),
-        "figure": points_to_value(problem, &study.figure),
-        "bands": points_to_value(problem, &study.bands),
-        "measured": measured_to_value(study),
-    }))
-}
-
-fn limits_to_value(problem: &Problem, limits: &[Limits]) -> Vec<Value> {
-    let limits = limits.iter().map(|limits| {
-        let [low, high] = &limits.values;
-        json!({"name": problem.dimension_name(limits.index), "constraint": limits.index, "least": low.to_string(), "greatest": high.to_string()})
-    });
-    limits.collect()
-}
-
-fn measured_to_value(study: &Study) -> Vec<Value> {
-    let measured = study.measured.iter().map(|measured| {
-        let [low, high] = measured.bounds;
-        json!({
-            "name": measured.name,
-            "unit": measured.unit,
-            "nominal": bounds(measured.nominal),
-            "least": bounds(low),
-            "greatest": bounds(high),
-            "attained": measured.is_attained,
-            "root_of_squares": measured.root_of_squares,
-            "effects": measured.effects,
-        })
-    });
-    measured.collect()
 }
 
 /// The study as CSV: for each measure its value, its worst cases (outer ends, as floats), the root of the sum of the squares, and by how much

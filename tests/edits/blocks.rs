@@ -1,6 +1,7 @@
 //! Problems that fall apart into blocks: `solve` answers block by block and combines.
 
 use assert_cmd::Command;
+use krawl::report::{Document, Listed};
 use serde_json::Value;
 use std::fs;
 
@@ -332,7 +333,7 @@ fn what_is_missed_is_not_said_to_be_met() {
         figures.count() == Some(0) || words.contains("was left out and is met within 3e-8, proved"),
         "{words}"
     );
-    let value = krawl::report::figures_to_value(&figures, krawl::report::Listed::Some);
+    let value = serde_json::to_value(Document::figures(&figures, Listed::Some)).unwrap();
     assert_ne!(value["status"], "complete");
 }
 

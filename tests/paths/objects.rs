@@ -3,7 +3,7 @@
 use krawl::interval::Interval;
 use krawl::problem::Problem;
 use krawl::report::page::Page;
-use krawl::report::{Run, to_table};
+use krawl::report::{Document, Run, to_table};
 use krawl::system::Located;
 use krawl::track::{Control, Options, Outcome, Space, Status, Trace, solve};
 
@@ -151,15 +151,15 @@ fn results_enclose_objects() {
         }
 
         let options = Options::certified();
-        let written = Run {
+        let written = Document::solve(&Run {
             problem: &problem,
             options: &options,
             outcome: &outcome,
             trace: Some(&trace),
             samples: 30,
             tested: None,
-        };
-        let json = written.to_value();
+        });
+        let json = serde_json::to_value(&written).unwrap();
         let round = ["hole", "ball"][problem.dimension - 2];
         let radius = [1.5, 1.9][problem.dimension - 2];
         let bounds = &json["solutions"][0]["objects"][round]["radius"];
@@ -183,7 +183,7 @@ fn results_enclose_objects() {
             .collect();
         assert!(faults.is_empty(), "{faults:?}");
 
-        let page = Page::from_result(&json).unwrap();
+        let page = Page::of(&written).unwrap();
         let kinds: Vec<&str> = page
             .shapes
             .iter()

@@ -8,7 +8,8 @@ use krawl::complete;
 use krawl::edit;
 use krawl::motion::Motion;
 use krawl::problem::Problem;
-use krawl::report::{self, edit_to_json};
+use krawl::report::document::Answer;
+use krawl::report::{self, Document};
 use krawl::track::{self, Control, Options, Progress, Space, Status, Witness};
 use pyo3::create_exception;
 use pyo3::exceptions::{PyOSError, PyValueError};
@@ -123,7 +124,7 @@ fn solve(
             samples,
             ..report::Run::new(&problem, &options, &outcome)
         };
-        Ok(run.to_json())
+        Ok(Document::solve(&run).to_json())
     };
     let json = interruptible(py, work);
     // After Ctrl-C too: what was proved by then is kept.
@@ -168,7 +169,7 @@ fn complete_set(
     if let (Some(path), Some(cover)) = (&certificate, &result.cover) {
         fs::write(path, cover).map_err(|error| unwritten(path, &error))?;
     }
-    Ok(report::complete_to_json(&problem, &result))
+    Ok(Document::all(&problem, &result).to_json())
 }
 
 /// A linkage followed all the way round: JSON as of `krawl motion --json`.
@@ -192,7 +193,7 @@ fn motion(
             &mut control,
         )
     })?;
-    Ok(report::motion_to_value(&found.map_err(bad)?).to_string())
+    Ok(Document::motion(&found.map_err(bad)?).to_json())
 }
 
 /// Checks a certificate: what came of it ("verified", "refuted", "not proved", "incomplete"), in words, and
@@ -274,7 +275,7 @@ impl Session {
             edit::Setting::check(session.problem(), &settings).map_err(bad)?;
             let mut control = until(cancel);
             let edited = session.edit_with(&settings, &mut control);
-            Ok(edit_to_json(session.problem(), &edited, session.moved()))
+            Ok(Answer::of(&session, &edited).to_json())
         })?
     }
 
@@ -293,7 +294,7 @@ impl Session {
             let drags = drags.collect::<Result<Vec<_>, _>>().map_err(bad)?;
             let mut control = until(cancel);
             let edited = session.drag(&drags, &mut control);
-            Ok(edit_to_json(session.problem(), &edited, session.moved()))
+            Ok(Answer::of(&session, &edited).to_json())
         })?
     }
 

@@ -8,22 +8,21 @@ use crate::cli::{CLOSED, LIMIT, OPEN, STOPPED};
 use crate::places::Each as _;
 use krawl::blocks::{Figures, First as Nearest};
 use krawl::problem::Problem;
+use krawl::report::document::Verb;
 use krawl::report::{
-    BlockRuns, Listed, figures_to_summary, figures_to_table, figures_to_value, first_in_words,
-    to_summary,
+    BlockRuns, Document, Listed, figures_to_summary, figures_to_table, first_in_words, to_summary,
 };
 use krawl::track::{EndKind, Outcome, PathEnd, Status};
-use serde_json::Value;
 use std::path::Path;
 
 /// The figures of a sketch, and what is told of them.
 pub(super) struct Found {
-    figures: Figures,
+    pub figures: Figures,
     /// The number of the one that `--first` means, if it is there.
     first: Option<u64>,
     pub text: String,
     /// For JSON.
-    pub value: Value,
+    pub document: Document,
     /// The exit code.
     pub code: u8,
 }
@@ -112,7 +111,7 @@ impl Arguments {
             true => figures_to_summary(&figures),
             false => figures_to_table(&figures, listed),
         };
-        let mut value = figures_to_value(&figures, listed);
+        let mut document = Document::figures(&figures, listed);
         let measures = self.measured.of(problem)?;
         if !measures.is_empty() {
             let numbers = match first {
@@ -127,7 +126,7 @@ impl Arguments {
                     .map(|(points, objects)| (&points[..], &objects[..]))
             };
             text += &measures.to_table("", boxes());
-            value["measures"] = measures.to_value(boxes());
+            document.beside.measures = measures.told(boxes());
         }
         if self.many.is_wanted() {
             text += "\nFigures found block by block are not told to more digits: `krawl all --digits` tells them.\n";
@@ -136,7 +135,7 @@ impl Arguments {
             figures,
             first,
             text,
-            value,
+            document,
             code,
         })
     }
@@ -179,7 +178,9 @@ impl Arguments {
             return None;
         }
         let found = self.by_blocks(problem).ok()?;
-        if vanishes && found.value["status"] != "complete" {
+        let is_complete =
+            |own: &Verb| matches!(own, Verb::Figures(own) if own.status == "complete");
+        if vanishes && !is_complete(&found.document.own) {
             return None;
         }
         let certificate = match self.cert {

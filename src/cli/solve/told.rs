@@ -15,13 +15,12 @@ use krawl::blocks::clusters;
 use krawl::complete::{Among, Tested, among};
 use krawl::edit::{Alone, alone};
 use krawl::problem::Problem;
+use krawl::report::document::{AloneEnding, Beside as More, Solve};
 use krawl::report::{
-    BlockRuns, Run, alone_in_words, alone_to_value, among_in_words, digits_to_table,
-    digits_to_value, part_in_words, signed_in_words, to_first_table, to_no_first, to_short_table,
-    to_summary, to_table,
+    BlockRuns, Document, Run, alone_in_words, among_in_words, digits_to_table, part_in_words,
+    signed_in_words, to_first_table, to_no_first, to_short_table, to_summary, to_table,
 };
 use krawl::track::{Control, Limit, Options, Outcome, Signs, Status, Trace};
-use serde_json::Value;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
@@ -70,13 +69,13 @@ impl Told<'_> {
     /// Tells a result that is whole.
     fn tell(
         &mut self,
-        (line, page): (&Value, &Value),
+        result: &Document,
         text: impl FnOnce() -> String,
         code: u8,
     ) -> Result<(), String> {
-        self.results.write_page(|| page.clone())?;
+        self.results.write_page(result)?;
         if self.results.has_json() {
-            self.lines += &(line.to_string() + "\n");
+            self.lines += &(result.to_json() + "\n");
         }
         self.results.print(text);
         self.worst = worse(self.worst, code);
@@ -101,15 +100,13 @@ impl Told<'_> {
         };
         self.results
             .note(arguments.take_of(&found, (problem, file)));
-        let alone = match found.value["count"] == 0 && self.results.are_read() {
+        let alone = match found.figures.count() == Some(0) && self.results.are_read() {
             true => arguments.alone(problem),
             false => Vec::new(),
         };
-        if !alone.is_empty() {
-            found.value["alone"] = alone_to_value(&alone);
-        }
+        found.document.beside.alone = alone.iter().map(AloneEnding::new).collect();
         let text = || format!("{gap}{}{}", found.text, alone_in_words(&alone));
-        self.tell((&found.value, &found.value), text, found.code)
+        self.tell(&found.document, text, found.code)
     }
 
     /// A problem that stopped, or whose path says nothing, block by block after all. False: it does not fall apart.
@@ -136,8 +133,8 @@ impl Told<'_> {
         {
             self.results
                 .note(arguments.take_of(&found, (problem, file)));
-            let mut whole = Run::new(problem, options, outcome).to_value();
-            whole["by_blocks"] = found.value.clone();
+            let mut whole = Solve::of(&Run::new(problem, options, outcome));
+            whole.by_blocks = Some(Box::new(found.document));
             let text = || match arguments.cert {
                 // What the certificate is about.
                 Some(_) => format!(
@@ -147,7 +144,7 @@ impl Told<'_> {
                 ),
                 None => format!("{gap}{}", found.text),
             };
-            self.tell((&whole, &found.value), text, found.code)?;
+            self.tell(&whole.document(problem), text, found.code)?;
             return Ok(true);
         }
         // What is asked for may be a certificate of the whole.
@@ -166,12 +163,12 @@ impl Told<'_> {
             options,
             runs: &runs,
         };
-        let value = all.to_value(outcome, arguments.all);
+        let document = all.document(outcome, arguments.all);
         let text = || {
             let hints = hints(problem, outcome, &name);
             format!("{gap}{}{hints}", arguments.shown_blocks(&all))
         };
-        self.tell((&value, &value), text, code)?;
+        self.tell(&document, text, code)?;
         if arguments.take.is_wanted()
             || !arguments.measured.is_empty()
             || arguments.many.is_wanted()
@@ -280,7 +277,8 @@ impl Told<'_> {
             tested,
             ..Run::new(problem, &options, &outcome)
         };
-        self.results.write_page(|| run.to_value())?;
+        let mut document = Document::solve(&run);
+        self.results.write_page(&document)?;
         self.results.print(|| {
             let part = tested.map_or_else(String::new, |tested| part_in_words(tested) + "\n");
             let summary = || to_summary(problem, &outcome, tested);
@@ -335,17 +333,14 @@ impl Told<'_> {
         }
         if self.results.has_json() {
             let figures = outcome.solutions.iter().map(placed);
-            let is_wanted = arguments.many.is_wanted();
-            let more = [
-                ("of_all", among.map(|among| among.all.into())),
-                ("alone", (!alone.is_empty()).then(|| alone_to_value(&alone))),
-                (
-                    "measures",
-                    (!measures.is_empty()).then(|| measures.to_value(figures)),
-                ),
-                ("digits", is_wanted.then(|| digits_to_value(problem, &many))),
-            ];
-            self.lines += &(run.to_json_with(more) + "\n");
+            document.beside = More {
+                of_all: among.map(|among| among.all),
+                alone: alone.iter().map(AloneEnding::new).collect(),
+                measures: measures.told(figures),
+                digits: arguments.many.told(problem, &many),
+                conformers: None,
+            };
+            self.lines += &(document.to_json() + "\n");
         }
         Ok(interrupt::is_requested())
     }

@@ -1,22 +1,22 @@
 //! Comparisons for spreadsheets.
 
-use super::json::{RowEntry, entry};
 use super::{Compared, faults};
 use crate::compare::Row;
+use crate::report::document::RowOf;
 
 /// A column: its name, and what stands in it for a row of a comparison.
-type Column = (&'static str, fn(&Compared, &Row, &RowEntry) -> String);
+type Column = (&'static str, fn(&Compared, &Row, &RowOf) -> String);
 
 /// The columns.
 const COLUMNS: [Column; 23] = [
     ("problem", |of, _, _| of.comparison.problem.clone()),
-    ("mode", |_, _, row| row.mode.into()),
-    ("space", |_, _, row| row.space.into()),
-    ("setting", |_, _, row| text(row.setting)),
+    ("mode", |_, _, row| row.mode.clone()),
+    ("space", |_, _, row| row.space.clone()),
+    ("setting", |_, _, row| text(row.setting.as_deref())),
     ("value", |_, _, row| float(row.value)),
     ("relative", |_, _, row| float(row.relative)),
-    ("status", |_, _, row| row.status.into()),
-    ("verdict", |_, _, row| row.verdict.into()),
+    ("status", |_, _, row| row.status.clone()),
+    ("verdict", |_, _, row| row.verdict.clone()),
     ("faults", |_, row, _| faults(&row.verdict)),
     ("steps", |_, _, row| text(row.steps)),
     ("rejected", |_, _, row| text(row.rejected)),
@@ -52,7 +52,7 @@ pub fn comparisons_to_csv(compared: &[Compared]) -> String {
         let comparison = &compared.comparison;
         let rows = comparison.rows.iter().chain(&comparison.sweep);
         rows.map(move |row| {
-            let entry = entry(compared, row);
+            let entry = RowOf::new(compared, row);
             COLUMNS.map(|(_, cell)| cell(compared, row, &entry))
         })
     });

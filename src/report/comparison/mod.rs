@@ -2,17 +2,16 @@
 
 #[cfg(feature = "cli")]
 mod csv;
-mod json;
 mod table;
 
 #[cfg(feature = "cli")]
 pub use csv::comparisons_to_csv;
-pub use json::comparisons_to_json;
 pub use table::comparison_to_table;
 
 use crate::compare::{Comparison, Fault, Measured, Method, Row, Verdict};
 use crate::problem::{Published, counted, either};
-use crate::track::{Status, StopKind};
+use crate::report::document::{Comparisons, ended, text};
+use crate::track::StopKind;
 
 /// A comparison and what was published about its problem.
 #[derive(Debug, Clone)]
@@ -23,9 +22,14 @@ pub struct Compared {
     pub published: Vec<Published>,
 }
 
+/// Comparisons as one line of JSON (docs/schema/comparison.schema.json).
+pub fn comparisons_to_json(compared: &[Compared]) -> String {
+    text(&Comparisons::new(compared))
+}
+
 impl Compared {
     /// The published run that belongs beside a row: the paper's, in the same space.
-    fn beside(&self, row: &Row) -> Option<&Published> {
+    pub(super) fn beside(&self, row: &Row) -> Option<&Published> {
         let space = row.way.space.name();
         let wanted = row.way.method == Method::Paper && row.setting.is_none();
         let mut published = self.published.iter();
@@ -33,35 +37,38 @@ impl Compared {
     }
 
     /// Published runs that belong beside no row.
-    fn others(&self) -> impl Iterator<Item = &Published> {
+    pub(super) fn others(&self) -> impl Iterator<Item = &Published> {
         self.published.iter().filter(|p| p.space.is_none())
     }
 
     /// A row's median time over the fastest one's.
-    fn ratio(&self, measured: &Measured) -> Option<f64> {
+    pub(super) fn ratio(&self, measured: &Measured) -> Option<f64> {
         Some(measured.median / self.comparison.fastest()?)
     }
 }
 
 /// `closed`, `open`, `stopped` or `unsupported`, the reason, and what it is for programs.
-fn status(row: &Row) -> (&'static str, Option<&str>, Option<StopKind>) {
+pub(super) fn status(row: &Row) -> (&'static str, Option<&str>, Option<StopKind>) {
     match &row.result {
         Err(reason) => ("unsupported", Some(reason), None),
-        Ok(measured) => match &measured.outcome.status {
-            Status::Closed => ("closed", None, None),
-            Status::Open(_) => ("open", None, None),
-            Status::Stopped(stop) => ("stopped", Some(&stop.text), Some(stop.kind)),
-        },
+        Ok(measured) => {
+            let (word, stop) = ended(&measured.outcome.status);
+            (
+                word,
+                stop.map(|stop| &stop.text[..]),
+                stop.map(|stop| stop.kind),
+            )
+        }
     }
 }
 
 /// What was switched on beyond the plain run, and why.
-fn switched_on(row: &Row) -> &[String] {
+pub(super) fn switched_on(row: &Row) -> &[String] {
     row.measured().map_or(&[], |m| &m.outcome.switched_on)
 }
 
 /// A verdict in a word.
-fn verdict(verdict: &Verdict) -> &'static str {
+pub(super) fn verdict(verdict: &Verdict) -> &'static str {
     match verdict {
         Verdict::Right => "right",
         Verdict::Stopped => "stopped",

@@ -1,8 +1,9 @@
 //! A comparison for people.
 
-use super::{Compared, earlier, faults, status, switched_on};
+use super::{Compared, earlier, faults, switched_on};
 use crate::compare::{Knob, Row, Verdict, Way};
 use crate::report::columns::Grid;
+use crate::report::document::RowOf;
 use crate::track::Status;
 use std::fmt::Write;
 
@@ -29,36 +30,27 @@ pub fn comparison_to_table(compared: &Compared) -> String {
     let mut grid = Grid::new(heading, |c| [0, 1, 7].contains(&c));
     let mut remarks = Vec::new();
     for row in &comparison.rows {
-        let mut cells = vec![row.way.method.name().into(), row.way.space.name().into()];
-        let (word, reason, _) = status(row);
-        match row.measured() {
-            Some(measured) => cells.extend([
-                measured.outcome.steps.to_string(),
-                measured.outcome.rejected.to_string(),
-                milliseconds(measured.median),
-                number(compared.ratio(measured), 2),
-                measured.outcome.solutions.len().to_string(),
-            ]),
-            None => cells.extend(std::iter::repeat_n("-".into(), 5)),
-        }
+        let told = RowOf::new(compared, row);
+        let (place, word) = (format!("{}, {}", told.mode, told.space), &told.status);
         let wrong = matches!(row.verdict, Verdict::Wrong(_));
-        cells.push(if wrong {
-            format!("{word}, WRONG")
-        } else {
-            word.into()
-        });
-        cells.push(widths(row));
-        let residual = row.measured().and_then(|m| m.residual);
-        cells.push(residual.map_or("-".into(), |r| format!("{r:.1e}")));
-        if let Some(published) = compared.beside(row) {
-            cells.push(format!(
-                "{}, {}, {}",
-                published.steps.map_or("-".into(), |n| n.to_string()),
-                published.seconds.map_or("-".into(), milliseconds),
-                published.solutions.map_or("-".into(), |n| n.to_string()),
-            ));
+        let widths = widths(&told);
+        let mut cells = vec![
+            told.mode,
+            told.space,
+            dash(told.steps),
+            dash(told.rejected),
+            dash(told.seconds.map(milliseconds)),
+            dash(told.ratio.map(|x| format!("{x:.2}"))),
+            dash(told.solutions),
+            format!("{word}{}", if wrong { ", WRONG" } else { "" }),
+            widths,
+            dash(told.residual.map(|r| format!("{r:.1e}"))),
+        ];
+        if let Some(published) = told.published {
+            let [steps, solutions] = [published.steps, published.solutions].map(dash);
+            let seconds = dash(published.seconds.map(milliseconds));
+            cells.push(format!("{steps}, {seconds}, {solutions}"));
         }
-        let place = format!("{}, {}", row.way.method.name(), row.way.space.name());
         if let Some(Status::Open(ends)) = row.measured().map(|m| &m.outcome.status) {
             let [one, other] = [&ends[0], &ends[1]].map(|end| {
                 let t = 0.5 * (end.t.0 + end.t.1);
@@ -68,7 +60,7 @@ pub fn comparison_to_table(compared: &Compared) -> String {
                 "{place}: open: the path ends at {one} and at {other}"
             ));
         }
-        if let Some(reason) = reason {
+        if let Some(reason) = told.reason {
             remarks.push(format!("{place}: {word}: {reason}"));
         }
         if row.verdict == Verdict::Unjudged
@@ -92,7 +84,7 @@ pub fn comparison_to_table(compared: &Compared) -> String {
         if wrong {
             remarks.push(format!("{place}: WRONG: {}", faults(&row.verdict)));
         }
-        for what in switched_on(row) {
+        for what in told.switched_on {
             remarks.push(format!("{place}: switched on: {what}"));
         }
         grid.push(cells);
@@ -148,30 +140,12 @@ fn sweep(compared: &Compared) -> String {
     let mut grid = Grid::new(heading, |c| [0, 1, 2, 9].contains(&c));
     for row in &comparison.sweep {
         let Some(setting) = row.setting else { continue };
-        let mut cells = vec![
-            row.way.method.name().into(),
-            row.way.space.name().into(),
-            setting.knob.name().into(),
-            match setting.knob {
-                Knob::MaxStep => setting.relative.to_string(),
-                _ => format!("{:e}", setting.relative),
-            },
-        ];
-        match row.measured() {
-            Some(measured) => cells.extend([
-                measured.outcome.steps.to_string(),
-                measured.outcome.rejected.to_string(),
-                milliseconds(measured.median),
-                measured.outcome.solutions.len().to_string(),
-            ]),
-            None => cells.extend(std::iter::repeat_n("-".into(), 4)),
-        }
-        cells.push(widths(row));
-        let (word, ..) = status(row);
-        cells.push(match &row.verdict {
+        let told = RowOf::new(compared, row);
+        let (word, widths) = (told.status.clone(), widths(&told));
+        let verdict = match &row.verdict {
             Verdict::Right => "right".into(),
             Verdict::Wrong(_) => format!("WRONG: {}", faults(&row.verdict)),
-            Verdict::Stopped => word.into(),
+            Verdict::Stopped => word,
             Verdict::Earlier(beyond) => format!("{word}: {}", earlier(*beyond)),
             Verdict::Unjudged if comparison.has_reference() && closed(row) => {
                 format!("{word}, beyond the arc")
@@ -179,9 +153,23 @@ fn sweep(compared: &Compared) -> String {
             Verdict::Unjudged if comparison.has_reference() => {
                 format!("{word}, with figures that are not on the arc")
             }
-            Verdict::Unjudged => word.into(),
-        });
-        grid.push(cells);
+            Verdict::Unjudged => word,
+        };
+        grid.push([
+            told.mode,
+            told.space,
+            setting.knob.name().into(),
+            match setting.knob {
+                Knob::MaxStep => setting.relative.to_string(),
+                _ => format!("{:e}", setting.relative),
+            },
+            dash(told.steps),
+            dash(told.rejected),
+            dash(told.seconds.map(milliseconds)),
+            dash(told.solutions),
+            widths,
+            verdict,
+        ]);
     }
     out += &grid.render();
     for way in Way::all() {
@@ -206,8 +194,8 @@ fn closed(row: &Row) -> bool {
 }
 
 /// The largest and the smallest width of a certified run's boxes.
-fn widths(row: &Row) -> String {
-    match row.measured().and_then(|m| m.widths()) {
+fn widths(row: &RowOf) -> String {
+    match row.widest.zip(row.narrowest) {
         Some((largest, smallest)) if largest > 0.0 => format!("{largest:.1e}, {smallest:.1e}"),
         _ => "-".into(),
     }
@@ -220,6 +208,7 @@ fn milliseconds(seconds: f64) -> String {
     format!("{ms:.*}", decimals as usize)
 }
 
-fn number(x: Option<f64>, decimals: usize) -> String {
-    x.map_or("-".into(), |x| format!("{x:.decimals$}"))
+/// What is known, or a dash.
+fn dash(x: Option<impl ToString>) -> String {
+    x.map_or("-".into(), |x| x.to_string())
 }

@@ -1,43 +1,36 @@
 //! The page of `tolerance`: the figure, with the band in which each point stays.
 
-use super::reader::{Reader, ShowError, bounds, digits, list, middle, pair, text, wrong};
-use super::{Figure, Page, Shape, Text, Tone};
+use super::reader::{Reader, digits, middle, nothing};
+use super::{Figure, Page, Shape, ShowError, Text, Tone};
 use crate::order::InOrder;
+use crate::report::document::{Bounds, Tolerance};
 use crate::report::tolerance::{rounded, short};
-use serde_json::Value;
 
 /// The widest band is drawn about so wide, as a part of the figure.
 const SEEN: f64 = 0.15;
 
-pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
-    let result = reader.result;
+pub(super) fn page(reader: &Reader, study: &Tolerance) -> Result<Page, ShowError> {
     let mut page = reader.page("In the file", "as it is drawn")?;
     (page.badge, page.tone) = ("proved".into(), Tone::Proved);
-    page.verdict = reader.words()? + ".";
-    let figure = reader.figure(&result["figure"], &Value::Null, "figure")?;
-    let bands = page
-        .points
-        .iter()
-        .map(|name| bounds(&result["bands"][name.as_str()], reader.dimension));
-    let bands: Vec<Vec<(f64, f64)>> = bands.collect::<Option<_>>().ok_or(wrong("bands"))?;
-    let (sizes, widths) = (
-        spans(&figure.points),
-        bands.iter().flatten().map(|(low, high)| high - low),
-    );
+    page.verdict = reader.words(&study.words) + ".";
+    let figure = reader.figure(&study.figure, &nothing())?;
+    let bands = reader.places(&study.bands, "bands")?;
+    let widths = bands.iter().copied().flatten();
+    let (sizes, widths) = (spans(&figure.points), widths.map(|[low, high]| high - low));
     let (size, widest) = (sizes.fold(0.0, f64::max), widths.fold(0.0, f64::max));
     let times = match widest > 0.0 {
         true => times(SEEN * size / widest),
         false => 1.0,
     };
     let mut outlines = Vec::new();
-    for (name, band) in page.points.iter().zip(&bands) {
+    for (name, band) in page.points.iter().zip(bands) {
         // A point that stays where it is has no band.
-        if band.iter().all(|(low, high)| high - low < 1e-9 * size) {
+        if band.iter().all(|[low, high]| high - low < 1e-9 * size) {
             continue;
         }
         let side = |sign: f64| -> Vec<f64> {
             let end =
-                |&(low, high): &(f64, f64)| middle((low, high)) + 0.5 * sign * times * (high - low);
+                |&[low, high]: &Bounds| middle([low, high]) + 0.5 * sign * times * (high - low);
             band.iter().map(end).collect()
         };
         for corners in faces(&side(-1.0), &side(1.0)) {
@@ -67,32 +60,22 @@ pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
         outlines: figure.outlines.iter().cloned().chain(outlines).collect(),
         ..figure
     });
-    let names = list(result, "limits")?
-        .iter()
-        .map(|limits| text(limits, "name"));
-    let names = names.collect::<Result<Vec<_>, _>>()?;
     let mut due = Vec::new();
-    for measured in list(result, "measured")? {
-        let name = text(measured, "name")?;
-        let end = |key: &'static str| pair(&measured[key]).ok_or(wrong("measured"));
-        let (least, greatest) = (end("least")?.0, end("greatest")?.1);
-        let squares = measured["root_of_squares"]
-            .as_f64()
-            .ok_or(wrong("measured"))?;
-        let nominal = digits(end("nominal")?);
+    for measured in &study.measured {
+        let name = &measured.name;
         page.rows.push((
             name.to_owned(),
             format!(
-                "{nominal}; at worst from {} to {}; root of the sum of the squares ±{}",
-                rounded(least, f64::floor),
-                rounded(greatest, f64::ceil),
-                short(squares)
+                "{}; at worst from {} to {}; root of the sum of the squares ±{}",
+                digits(measured.nominal),
+                rounded(measured.least[0], f64::floor),
+                rounded(measured.greatest[1], f64::ceil),
+                short(measured.root_of_squares)
             ),
         ));
-        let effects = list(measured, "effects")?
-            .iter()
-            .map(|x| x.as_f64().unwrap_or(0.0).abs());
-        let mut effects: Vec<(f64, &str)> = effects.zip(names.iter().copied()).collect();
+        let effects = measured.effects.iter().map(|x| x.abs());
+        let names = study.limits.iter().map(|limits| &limits.name);
+        let mut effects: Vec<(f64, &String)> = effects.zip(names).collect();
         let all: f64 = effects.iter().map(|(effect, _)| effect).sum();
         effects.order_by(|a, b| b.0.total_cmp(&a.0));
         let most = effects

@@ -1,34 +1,33 @@
 //! The page of a complete set (`krawl all`): every figure in the place of the sketch's reference points, or, where the
 //! search had others, in the search's own.
 
-use super::reader::{Reader, ShowError, list, text, wrong};
-use super::{Figure, Page, Text, Tone};
+use super::reader::Reader;
+use super::{Figure, Page, ShowError, Text, Tone};
 use crate::blocks::rounded_up;
+use crate::report::document::All;
 
-pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
-    let result = reader.result;
+pub(super) fn page(reader: &Reader, all: &All) -> Result<Page, ShowError> {
     let mut page = reader.page("Sketch", "not a solution: drawn for comparison")?;
-    for (k, solution) in list(result, "solutions")?.iter().enumerate() {
-        let width = solution["width"].as_f64().ok_or(wrong("solutions"))?;
+    for (k, solution) in all.solutions.iter().enumerate() {
         page.figures.push(Figure {
             name: format!("Solution {}", k + 1),
-            note: format!("known up to {} of its size", rounded_up(width)),
+            note: format!("known up to {} of its size", rounded_up(solution.width)),
             class: Some(k),
-            ..reader.figure(&solution["points"], &solution["objects"], "solutions")?
+            ..reader.figure(&solution.points, &solution.objects)?
         });
     }
-    page.rate(match text(result, "status")? {
+    page.rate(match &all.status[..] {
         "complete" => ("proved · all there are", Tone::Proved),
         _ => ("proved in part", Tone::Stopped),
     });
-    page.verdict = text(result, "verdict")?.to_owned();
-    let searched = match result["method"].as_str() {
-        Some("coordinates") => {
+    page.verdict = all.verdict.clone();
+    let searched = match &all.method[..] {
+        "coordinates" => {
             "All figures with these dimensions were searched, on every path and on none: the coordinates of the points, and \
              what else the constraints need, were divided into boxes, and in each box that is not listed here it is proved \
              that there is no solution. Figures that the constraints do not tell apart are listed once."
         }
-        Some("complex") => {
+        "complex" => {
             "All complex solutions were found, as many as the product of the degrees allows: these are the real ones among them."
         }
         _ => {
@@ -39,12 +38,9 @@ pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
     };
     page.text = vec![Text::Paragraph(searched.into())];
     page.rows = vec![
-        ("driving parameters".into(), result["driving"].to_string()),
-        ("boxes".into(), result["boxes"].to_string()),
-        (
-            "seconds".into(),
-            format!("{:.4}", result["seconds"].as_f64().unwrap_or(0.0)),
-        ),
+        ("driving parameters".into(), all.driving.to_string()),
+        ("boxes".into(), all.boxes.to_string()),
+        ("seconds".into(), format!("{:.4}", all.seconds)),
     ];
     Ok(page)
 }

@@ -1,6 +1,6 @@
 //! One self-contained page with figures to turn, a path to travel, and the words that belong to them.
 //!
-//! A [`Page`] is made from a result as `--json` writes it ([`Page::from_result`]), whichever verb it is of: one file here
+//! A [`Page`] is made from a result as `--json` writes it ([`Page::of`]), whichever verb it is of: one file here
 //! for each. What draws pages knows nothing of verbs. A page is written as HTML that needs no network: `page.html` with
 //! `page.css`, `page.js` and the data in it.
 
@@ -22,7 +22,7 @@ mod solved;
 mod still;
 mod swept;
 
-pub use reader::ShowError;
+pub use super::document::ShowError;
 
 use serde::Serialize;
 

@@ -1,50 +1,41 @@
-//! The path of a page, from a document's `samples` and `folds`.
+//! The path of a page, from samples and folds.
 
-use super::reader::{Reader, ShowError, list, place, wrong};
-use super::{Accuracy, Level, Mark, Path, Sample};
-use crate::places::Each as _;
-use serde_json::Value;
+use super::reader::{Reader, place};
+use super::{Accuracy, Level, Mark, Path, Sample, ShowError};
+use crate::report::document::{self, Bounds, Fold, Points, wrong};
 
 /// The path of homotopy that a document tells of. `None`: it has no samples.
-pub(super) fn read(reader: &Reader, document: &Value) -> Result<Option<Path>, ShowError> {
-    let Some(given) = document["samples"].as_array() else {
-        return Ok(None);
-    };
+pub(super) fn read(
+    reader: &Reader,
+    given: &[document::Sample],
+    folds: &[Fold],
+) -> Result<Option<Path>, ShowError> {
     let mut samples = Vec::with_capacity(given.len());
     let mut within = Vec::with_capacity(given.len());
     for sample in given {
-        let at = sample["at"].as_f64().ok_or(wrong("samples"))?;
-        let t = sample["t"].as_f64().ok_or(wrong("samples"))?;
-        let mut points = Vec::with_capacity(3 * reader.names.len());
-        for p in list(sample, "points").map_err(|_| wrong("samples"))? {
-            points.extend(reader.there(place(p, reader.dimension, "samples")?));
+        let mut points = Vec::with_capacity(3 * reader.drawing.names.len());
+        for p in &sample.points {
+            let at = place(p, reader.dimension).ok_or_else(|| wrong("samples"))?;
+            points.extend(reader.there(at));
         }
-        if points.len() != 3 * reader.names.len() {
+        if points.len() != 3 * reader.drawing.names.len() {
             return Err(wrong("samples"));
         }
         samples.push(Sample {
-            at,
-            t,
-            outlines: reader.seen(&points, &sample["objects"]),
+            at: sample.at,
+            t: sample.t,
+            outlines: reader.seen(&points, &sample.objects),
             points,
         });
-        within.extend(sample["within"].as_f64());
+        within.extend(sample.within);
     }
     if samples.len() < 2 {
         return Ok(None);
     }
-    let mut marks = Vec::new();
-    for fold in list(document, "folds")? {
-        let at = fold["at"].as_f64().ok_or(wrong("folds"))?;
-        let t = [0, 1].each(|k| fold["t"][k].as_f64());
-        let [Some(low), Some(high)] = t else {
-            return Err(wrong("folds"));
-        };
-        marks.push(Mark {
-            at,
-            t: 0.5 * (low + high),
-        });
-    }
+    let marks = folds.iter().map(|fold| Mark {
+        at: fold.at,
+        t: 0.5 * (fold.t[0] + fold.t[1]),
+    });
     Ok(Some(Path {
         parameter: "t".into(),
         along: "length of the path".into(),
@@ -66,15 +57,14 @@ pub(super) fn read(reader: &Reader, document: &Value) -> Result<Option<Path>, Sh
                 .into(),
         }),
         samples,
-        marks,
+        marks: marks.collect(),
         ..Path::default()
     }))
 }
 
 /// Half the width of a figure's widest bounds.
-pub(super) fn width(reader: &Reader, points: &Value) -> Option<f64> {
-    let points = points.as_object()?.values();
-    let bounds = points.filter_map(|p| super::reader::bounds(p, reader.dimension));
-    let widths = bounds.flatten().map(|(low, high)| 0.5 * (high - low));
+pub(super) fn width(points: &Points<Bounds>) -> Option<f64> {
+    let bounds = points.0.iter().flat_map(|(_, place)| place);
+    let widths = bounds.map(|[low, high]| 0.5 * (high - low));
     Some(widths.fold(0.0, f64::max))
 }

@@ -1,34 +1,30 @@
 //! The page of `limits`: the figures at both ends of every dimension's range.
 
-use super::reader::{Reader, ShowError, digits, middle, pair, strings, text, wrong};
-use super::{Figure, Page, Text, Tone};
+use super::reader::{Reader, digits, middle, nothing};
+use super::{Figure, Page, ShowError, Text, Tone};
 use crate::blocks::rounded_up;
 use crate::order::InOrder;
-use serde_json::Value;
+use crate::report::document::{Limits, RangeOf, wrong};
 
-pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
-    let result = reader.result;
+pub(super) fn page(reader: &Reader, limits: &Limits) -> Result<Page, ShowError> {
     let mut page = reader.page("In the file", "all dimensions as they are")?;
     page.verdict = "How far each dimension can go alone, all others standing still.".into();
-    let moved = result["moved"].as_f64().ok_or(wrong("moved"))?;
-    if moved > 0.0 {
+    if limits.moved > 0.0 {
         page.verdict += &format!(
             " The sketch was led to its own dimensions first, proved likewise: no point moved by more than {}.",
-            rounded_up(moved)
+            rounded_up(limits.moved)
         );
     }
-    let ranges = result["ranges"].as_object().ok_or(wrong("ranges"))?;
-    let mut ranges: Vec<(&String, &Value)> = ranges.iter().collect();
+    let mut ranges: Vec<&(String, RangeOf)> = limits.ranges.0.iter().collect();
     // In the order of the file.
-    ranges.order_by_key(|(_, range)| range["constraint"].as_u64());
+    ranges.order_by_key(|(_, range)| range.constraint);
     let mut all = true;
     let mut words = Vec::new();
     for (name, range) in ranges {
         let mut values = Vec::new();
-        for (key, which) in [("low", "least"), ("high", "largest")] {
-            let end = &range[key];
-            let value = pair(&end["value"]).ok_or(wrong("ranges"))?;
-            match text(end, "status")? {
+        for (end, which) in [(&range.low, "least"), (&range.high, "largest")] {
+            let value = end.value;
+            match &end.status[..] {
                 "limit" => values.push(digits(value)),
                 "reached" => values.push(format!("{} and beyond", near(middle(value)))),
                 _ => {
@@ -37,29 +33,27 @@ pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
                 }
             }
             // Where no limit was met the figure is one of many.
-            if text(end, "status")? != "limit" {
+            if end.status != "limit" {
                 continue;
             }
-            words.push(format!(
-                "{name}, the {which}, {}: {}",
-                digits(value),
-                text(end, "words")?
-            ));
+            let (Some(told), Some(points)) = (&end.words, &end.points) else {
+                return Err(wrong("ranges"));
+            };
+            words.push(format!("{name}, the {which}, {}: {told}", digits(value)));
             page.figures.push(Figure {
                 name: format!("{name} = {}", near(middle(value))),
                 note: format!(
                     "the {which} that it can be{}",
-                    special(reader, &end["flat"])
+                    special(reader, end.flat.as_deref().unwrap_or_default())
                 ),
                 // No two of them are congruent.
                 class: Some(page.figures.len() - 1),
-                ..reader.figure(&end["points"], &Value::Null, "ranges")?
+                ..reader.figure(points, &nothing())?
             });
         }
-        let value = pair(&range["value"]).ok_or(wrong("ranges"))?;
         page.rows.push((
             name.clone(),
-            format!("is {}; from {}", digits(value), values.join(" to ")),
+            format!("is {}; from {}", digits(range.value), values.join(" to ")),
         ));
     }
     page.rate(match all {
@@ -84,18 +78,17 @@ fn near(x: f64) -> String {
 }
 
 /// What is special about the figure at a limit, in few words.
-fn special(reader: &Reader, flat: &Value) -> String {
-    if !flat[0].is_array() {
+fn special(reader: &Reader, flat: &[Vec<String>]) -> String {
+    let [names, others @ ..] = flat else {
         return String::new();
-    }
-    let names = strings(&flat[0]);
+    };
     let place = match reader.dimension {
         2 => "on one line",
         _ => "in one plane",
     };
-    let more = match flat[1].is_array() {
-        true => ", and others",
-        false => "",
+    let more = match others {
+        [] => "",
+        _ => ", and others",
     };
     format!("; {} {place}{more}", names.join(", "))
 }

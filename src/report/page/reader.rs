@@ -1,4 +1,4 @@
-//! What results of all verbs with figures have in common, read from their JSON (docs/using/programs.md).
+//! What pages of results with figures have in common.
 
 use super::{Bar, Figure, Label, Page, Shape, outlines};
 use crate::interval::hull;
@@ -6,121 +6,79 @@ use crate::interval::vector::{cross, minus};
 use crate::places::array;
 use crate::report::certain_digits;
 use crate::report::columns::DIGITS;
-use crate::report::drawing::{Constraint, Object};
+use crate::report::document::{
+    At, Bounds, Choice, Dimension, Drawing, Named, Object, Objects, Points, ShowError, wrong,
+};
 use crate::report::figures::chosen_in_words;
-use serde::Deserialize;
-use serde_json::{Value, json};
+use std::collections::BTreeMap;
 
-/// Why a document is no result that can be shown.
-#[derive(Clone, PartialEq, thiserror::Error)]
-pub enum ShowError {
-    /// It is not JSON.
-    #[error("is not JSON: {0}")]
-    NotJson(String),
-    /// It is not a result of this program.
-    #[error(
-        "is not a result that `krawl` wrote with `--json`: `{0}` is missing or not what it should be"
-    )]
-    NotAResult(&'static str),
-    /// It is of another version.
-    #[error("is of version {0} of the format, and this program reads version {1}")]
-    Version(u64, u32),
-    /// It is a result without figures in real coordinates.
-    #[error("is a result of `krawl {0}`, which has no figure to draw: {1}")]
-    NoFigure(&'static str, &'static str),
-}
-
-crate::debug_in_words!(ShowError);
-
-pub(super) fn wrong(key: &'static str) -> ShowError {
-    ShowError::NotAResult(key)
-}
-
-pub(super) fn text<'a>(value: &'a Value, key: &'static str) -> Result<&'a str, ShowError> {
-    value[key].as_str().ok_or(wrong(key))
-}
-
-pub(super) fn list<'a>(value: &'a Value, key: &'static str) -> Result<&'a Vec<Value>, ShowError> {
-    value[key].as_array().ok_or(wrong(key))
-}
-
-/// The texts of a list.
-pub(super) fn strings(list: &Value) -> Vec<&str> {
-    let list = list.as_array().into_iter().flatten();
-    list.filter_map(Value::as_str).collect()
-}
-
-/// Circles with their radii, as objects of a result have them.
-pub(super) fn circles(radii: &Value) -> Value {
-    let radii = radii.as_object().into_iter().flatten();
-    let all = radii.map(|(name, radius)| (name.clone(), json!({"radius": radius})));
-    Value::Object(all.collect())
-}
-
-/// `block 1 solution 1, block 2 solution 3 mirrored`.
-pub(super) fn choices(choices: &Value) -> Option<String> {
-    let each = choices.as_array()?.iter().map(|choice| {
-        let number = |key: &str| Some(choice[key].as_u64()? as usize);
-        let is_mirrored = choice["mirrored"].as_bool() == Some(true);
-        Some((number("block")?, number("solution")?, is_mirrored))
-    });
-    let each = each.collect::<Option<Vec<_>>>()?;
-    Some(chosen_in_words(each.into_iter()))
-}
-
-/// What stands under a key, in the form that is wanted.
-fn read<'a, T: Deserialize<'a>>(value: &'a Value, key: &'static str) -> Result<T, ShowError> {
-    T::deserialize(&value[key]).map_err(|_| wrong(key))
-}
-
-/// Numbers, in the first places of three.
-pub(super) fn place(
-    value: &Value,
-    dimension: usize,
-    key: &'static str,
-) -> Result<[f64; 3], ShowError> {
-    let given = value.as_array().filter(|given| given.len() == dimension);
-    let mut out = [0.0; 3];
-    for (out, x) in out.iter_mut().zip(given.ok_or(wrong(key))?) {
-        *out = x.as_f64().ok_or(wrong(key))?;
-    }
-    Ok(out)
-}
-
-/// A lower and an upper bound.
-pub(super) fn pair(x: &Value) -> Option<(f64, f64)> {
-    let (low, high) = (x[0].as_f64()?, x[1].as_f64()?);
-    (low <= high).then_some((low, high))
-}
-
-pub(super) fn middle((low, high): (f64, f64)) -> f64 {
+pub(super) fn middle([low, high]: Bounds) -> f64 {
     low + 0.5 * (high - low)
 }
 
+/// Whether there is a number between these.
+fn are_bounds([low, high]: &Bounds) -> bool {
+    low <= high && (high - low).is_finite()
+}
+
 /// The digits of which bounds leave no doubt.
-pub(super) fn digits((low, high): (f64, f64)) -> String {
-    certain_digits(hull(low, high))
+pub(super) fn digits([low, high]: Bounds) -> String {
+    match are_bounds(&[low, high]) {
+        true => certain_digits(hull(low, high)),
+        false => "?".to_owned(),
+    }
 }
 
-/// Bounds of each coordinate.
-pub(super) fn bounds(value: &Value, dimension: usize) -> Option<Vec<(f64, f64)>> {
-    let given = value.as_array().filter(|given| given.len() == dimension)?;
-    given.iter().map(pair).collect()
+/// A number, or the middle of bounds.
+pub(super) trait Number: Copy {
+    fn middle(self) -> f64;
 }
 
-/// A number, or the middle of two bounds.
-fn number_or_middle(x: &Value) -> Option<f64> {
-    x.as_f64().or_else(|| pair(x).map(middle))
+impl Number for f64 {
+    fn middle(self) -> f64 {
+        self
+    }
 }
 
-/// For each coordinate the number, or the middle of its bounds, in the first places of three.
-fn middles(value: &Value, dimension: usize) -> Option<[f64; 3]> {
-    let given = value.as_array().filter(|given| given.len() == dimension)?;
+impl Number for Bounds {
+    fn middle(self) -> f64 {
+        middle(self)
+    }
+}
+
+/// The coordinates of a place, in the first ones of three; none where they are of another dimension.
+pub(super) fn place<C: Number>(given: &[C], dimension: usize) -> Option<[f64; 3]> {
     let mut out = [0.0; 3];
     for (out, x) in out.iter_mut().zip(given) {
-        *out = number_or_middle(x)?;
+        *out = x.middle();
     }
-    Some(out)
+    let is_place = given.len() == dimension && out.iter().all(|x| x.is_finite());
+    is_place.then_some(out)
+}
+
+/// No objects but those that their points tell.
+pub(super) fn nothing() -> Objects<f64> {
+    Named::default()
+}
+
+/// Circles with their radii, as objects of a result have them.
+pub(super) fn circles<C: Copy>(radii: &Named<C>) -> Objects<C> {
+    let radii = radii.0.iter();
+    let circle = |radius: C| At::Round {
+        center: Vec::new(),
+        radius,
+    };
+    Named(
+        radii
+            .map(|(name, radius)| (name.clone(), circle(*radius)))
+            .collect(),
+    )
+}
+
+/// `block 1 solution 1, block 2 solution 3 mirrored`.
+pub(super) fn choices(choices: &[Choice]) -> String {
+    let each = choices.iter();
+    chosen_in_words(each.map(|c| (c.block, c.solution, c.mirrored == Some(true))))
 }
 
 /// A decimal as it is written on a bar: not longer than a few digits.
@@ -131,47 +89,37 @@ pub(super) fn shown(value: &str) -> String {
     }
 }
 
-/// A result, and the coordinates in which its figures are seen from those of the sketch.
+/// What a result says of its problem, and the coordinates in which its figures are seen from those of the sketch.
 pub(super) struct Reader<'a> {
-    pub result: &'a Value,
+    pub drawing: &'a Drawing,
     pub dimension: usize,
-    pub names: Vec<String>,
-    constraints: Vec<Constraint<'a>>,
-    objects: Vec<Object<'a>>,
     origin: [f64; 3],
     axes: [[f64; 3]; 3],
 }
 
 impl<'a> Reader<'a> {
-    pub fn new(result: &'a Value) -> Result<Self, ShowError> {
-        let given = match &result["dimension"] {
+    pub fn new(drawing: &'a Drawing) -> Result<Self, ShowError> {
+        let dimension = match (&drawing.dimension, drawing.sketch.0.first()) {
+            (Dimension::Space(dimension), _) => *dimension,
             // Of a sweep it is the name of what is driven.
-            Value::String(_) => {
-                let places = result["sketch"].as_object().ok_or(wrong("sketch"))?;
-                let place = places.values().next().and_then(Value::as_array);
-                place.map(|place| place.len() as u64)
-            }
-            given => given.as_u64(),
+            (Dimension::Driven(_), Some((_, place))) => place.len(),
+            (Dimension::Driven(_), None) => 0,
         };
-        let dimension = match given {
-            Some(d @ (2 | 3)) => d as usize,
-            _ => return Err(wrong("dimension")),
-        };
+        if !matches!(dimension, 2 | 3) {
+            return Err(wrong("dimension"));
+        }
         let mut origin = [0.0; 3];
         let mut axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-        if !result["frame"].is_null() {
-            let frame = &result["frame"];
-            origin = place(&frame["origin"], dimension, "frame")?;
-            for (k, axis) in axes.iter_mut().enumerate().take(dimension) {
-                *axis = place(&frame["axes"][k], dimension, "frame")?;
+        if let Some(frame) = &drawing.frame {
+            let place = |given: &[f64]| place(given, dimension).ok_or_else(|| wrong("frame"));
+            origin = place(&frame.origin)?;
+            for (own, given) in axes.iter_mut().zip(&frame.axes) {
+                *own = place(given)?;
             }
         }
         Ok(Reader {
-            result,
+            drawing,
             dimension,
-            names: read(result, "names")?,
-            constraints: read(result, "constraints")?,
-            objects: read::<Option<_>>(result, "objects")?.unwrap_or_default(),
             origin,
             axes,
         })
@@ -180,9 +128,9 @@ impl<'a> Reader<'a> {
     /// A page with the sketch, under a name and with a note, and what holds it together. Digits are taken to be proved.
     pub fn page(&self, name: &str, note: &str) -> Result<Page, ShowError> {
         Ok(Page {
-            title: text(self.result, "problem")?.to_owned(),
+            title: self.drawing.problem.clone(),
             dimension: self.dimension,
-            points: self.names.clone(),
+            points: self.drawing.names.clone(),
             bars: self.bars()?,
             labels: self.labels(|_| None),
             shapes: self.shapes(),
@@ -207,28 +155,22 @@ impl<'a> Reader<'a> {
     }
 
     /// The words of a result without the name of its problem before them.
-    pub fn words(&self) -> Result<String, ShowError> {
-        let name = format!("{}: ", text(self.result, "problem")?);
-        let words = text(self.result, "words")?;
-        Ok(words.trim_start_matches(&name).to_owned())
+    pub fn words(&self, words: &str) -> String {
+        let name = format!("{}: ", self.drawing.problem);
+        words.trim_start_matches(&name).to_owned()
     }
 
-    /// A figure with bounds of its coordinates, seen as results are, as a solution without a name yet; `key`: where it stands.
-    pub fn figure(
+    /// A figure with bounds of its coordinates, seen as results are, as a solution without a name yet.
+    pub fn figure<C: Number>(
         &self,
-        points: &Value,
-        objects: &Value,
-        key: &'static str,
+        points: &Points<Bounds>,
+        objects: &Objects<C>,
     ) -> Result<Figure, ShowError> {
         let (mut places, mut read) = (Vec::new(), Vec::new());
-        for name in &self.names {
-            let bounds = bounds(&points[name.as_str()], self.dimension).ok_or(wrong(key))?;
-            let mut at = [0.0; 3];
-            for (at, &bounds) in at.iter_mut().zip(&bounds) {
-                *at = middle(bounds);
-            }
-            places.extend(self.there(at));
-            read.push(bounds.into_iter().map(digits).collect());
+        for bounds in self.places(points, "points")? {
+            let at = place(bounds, self.dimension).filter(|_| bounds.iter().all(are_bounds));
+            places.extend(self.there(at.ok_or_else(|| wrong("points"))?));
+            read.push(bounds.iter().copied().map(digits).collect());
         }
         Ok(Figure {
             kind: "solution",
@@ -239,29 +181,43 @@ impl<'a> Reader<'a> {
         })
     }
 
+    /// The places of all points, by number; `key`: under which they stand.
+    pub fn places<'p, C>(
+        &self,
+        points: &'p Points<C>,
+        key: &str,
+    ) -> Result<Vec<&'p [C]>, ShowError> {
+        let known: BTreeMap<&str, &'p Vec<C>> =
+            points.0.iter().map(|(name, at)| (&name[..], at)).collect();
+        let places = self.drawing.names.iter().map(|name| {
+            let place = known.get(&name[..]).map(|place| &place[..]);
+            let place = place.filter(|place| place.len() == self.dimension);
+            place.ok_or_else(|| ShowError::NotAResult(key.to_owned(), format!(" (`{name}`)")))
+        });
+        places.collect()
+    }
+
     /// The outlines of a figure in the coordinates of the results.
-    pub fn seen(&self, points: &[f64], objects: &Value) -> Vec<Vec<f64>> {
+    pub fn seen<C: Number>(&self, points: &[f64], objects: &Objects<C>) -> Vec<Vec<f64>> {
         self.outlines(points, objects, |p| self.there(p), |v| self.turned(v))
     }
 
     fn number(&self, name: &str) -> Option<usize> {
-        self.names.iter().position(|known| known == name)
+        self.drawing.names.iter().position(|known| known == name)
     }
 
     /// The points of these names, if all are points.
-    fn numbers(&self, names: &[&str]) -> Option<Vec<usize>> {
+    pub fn numbers(&self, names: &[String]) -> Option<Vec<usize>> {
         names.iter().map(|name| self.number(name)).collect()
     }
 
     /// The sketch, as it is drawn behind others.
     fn sketch(&self) -> Result<Figure, ShowError> {
-        let sketch = &self.result["sketch"];
-        let mut points = Vec::new();
-        for name in &self.names {
-            points.extend(place(&sketch[name.as_str()], self.dimension, "sketch")?);
-        }
+        let places = self.places(&self.drawing.sketch, "sketch")?.into_iter();
+        let points = places.flat_map(|at| place(at, self.dimension).unwrap_or_default());
+        let points: Vec<f64> = points.collect();
         let as_is = |p: [f64; 3]| p;
-        let outlines = self.outlines(&points, &self.result["sketch_objects"], as_is, as_is);
+        let outlines = self.outlines(&points, &self.drawing.sketch_objects, as_is, as_is);
         Ok(Figure {
             kind: "sketch",
             points,
@@ -272,7 +228,7 @@ impl<'a> Reader<'a> {
 
     /// The ends of a dimension's bar, where it has one.
     pub fn ends_of(&self, name: &str) -> Option<[usize; 2]> {
-        let mut all = self.constraints.iter();
+        let mut all = self.drawing.constraints.iter();
         let constraint = all.find(|constraint| constraint.name.as_deref() == Some(name))?;
         let is_distance = constraint.kind.ends_with("distance");
         let ends = is_distance.then(|| self.numbers(&constraint.items));
@@ -281,10 +237,10 @@ impl<'a> Reader<'a> {
 
     fn bars(&self) -> Result<Vec<Bar>, ShowError> {
         let mut bars = Vec::new();
-        for constraint in &self.constraints {
+        for constraint in &self.drawing.constraints {
             let value = constraint.value.as_deref();
             let target = value.and_then(|value| value.parse::<f64>().ok());
-            let (label, target) = match (constraint.kind, value) {
+            let (label, target) = match (&constraint.kind[..], value) {
                 ("distance", Some(value)) => (shown(value), target),
                 ("squared distance", Some(value)) => {
                     (format!("√{}", shown(value)), target.map(f64::sqrt))
@@ -305,10 +261,10 @@ impl<'a> Reader<'a> {
         }
         // Lines through points and rigid bodies hold points together too.
         let mut pairs: Vec<[usize; 2]> = Vec::new();
-        for object in &self.objects {
+        for object in &self.drawing.objects {
             let points = object.points.iter();
             let points: Vec<usize> = points.filter_map(|name| self.number(name)).collect();
-            match object.kind {
+            match &object.kind[..] {
                 "line" => pairs.extend(points.windows(2).map(|w| [w[0], w[1]])),
                 "body" => {
                     let with = |(k, &a): (usize, &usize)| {
@@ -320,9 +276,9 @@ impl<'a> Reader<'a> {
             }
         }
         // Whoever says that two points are level, or that what is between them is parallel to something, has a line in mind.
-        for constraint in &self.constraints {
+        for constraint in &self.drawing.constraints {
             if matches!(
-                constraint.kind,
+                &constraint.kind[..],
                 "horizontal" | "vertical" | "parallel" | "perpendicular" | "equal"
             ) {
                 let items = constraint.items.iter();
@@ -346,17 +302,18 @@ impl<'a> Reader<'a> {
     /// The dimensions that are no bars, each where the points are that it is about: the text with the number that stands in
     /// the file, or with another one for those that `now` has one for, by name.
     pub fn labels(&self, now: impl Fn(&str) -> Option<String>) -> Vec<Label> {
-        let points_of = |item: &&str| -> Vec<usize> {
+        let points_of = |item: &String| -> Vec<usize> {
             if let Some(point) = self.number(item) {
                 return vec![point];
             }
-            let object = self.objects.iter().find(|object| object.name == *item);
+            let mut objects = self.drawing.objects.iter();
+            let object = objects.find(|object| object.name == *item);
             let points = object.into_iter().flat_map(|object| &object.points);
             points.filter_map(|name| self.number(name)).collect()
         };
         let mut labels = Vec::new();
-        for constraint in &self.constraints {
-            let (kind, items) = (constraint.kind, &constraint.items);
+        for constraint in &self.drawing.constraints {
+            let (kind, items) = (&constraint.kind[..], &constraint.items);
             let Some(value) = constraint.value.as_deref() else {
                 continue;
             };
@@ -394,16 +351,19 @@ impl<'a> Reader<'a> {
     }
 
     /// The objects that are drawn: all but rigid bodies, which are bars.
-    fn objects(&self) -> impl Iterator<Item = &Object<'a>> {
-        self.objects.iter().filter(|object| object.kind != "body")
+    fn objects(&self) -> impl Iterator<Item = &Object> {
+        self.drawing
+            .objects
+            .iter()
+            .filter(|object| object.kind != "body")
     }
 
     fn shapes(&self) -> Vec<Shape> {
         self.objects()
             .map(|object| Shape {
-                name: object.name.into(),
-                kind: object.kind.into(),
-                ends: match (object.kind, self.numbers(&object.points).as_deref()) {
+                name: object.name.clone(),
+                kind: object.kind.clone(),
+                ends: match (&object.kind[..], self.numbers(&object.points).as_deref()) {
                     ("line", Some(&[a, b])) => Some([a, b]),
                     _ => None,
                 },
@@ -414,39 +374,39 @@ impl<'a> Reader<'a> {
     /// How the objects of a figure are drawn: from what the document says of them, numbers or bounds, in the coordinates
     /// that `there` and `turn` take to those of the sketch, or else from the points that they go through. Empty where
     /// neither tells.
-    fn outlines(
+    fn outlines<C: Number>(
         &self,
         points: &[f64],
-        objects: &Value,
+        objects: &Objects<C>,
         there: impl Fn([f64; 3]) -> [f64; 3],
         turn: impl Fn([f64; 3]) -> [f64; 3],
     ) -> Vec<Vec<f64>> {
         let point =
             |k: usize| -> Option<[f64; 3]> { points.get(3 * k..3 * k + 3)?.try_into().ok() };
         let outline = |object: &Object| -> Option<Vec<f64>> {
-            let at = &objects[object.name];
-            let place = |key: &str| middles(&at[key], self.dimension);
+            let at = objects.get(&object.name);
+            let place = |at: &[C]| place(at, self.dimension);
             let through = self.numbers(&object.points)?.into_iter().map(point);
             let through = through.collect::<Option<Vec<[f64; 3]>>>()?;
-            Some(match (object.kind, &through[..]) {
-                ("line", _) if !at.is_null() => {
-                    outlines::line(points, there(place("point")?), turn(place("direction")?))
+            Some(match (&object.kind[..], &through[..], at) {
+                ("line", _, Some(At::Line { point, direction })) => {
+                    outlines::line(points, there(place(point)?), turn(place(direction)?))
                 }
-                ("line", &[a, b]) => outlines::line(points, a, outlines::unit(minus(b, a))?),
-                ("plane", _) if !at.is_null() => {
-                    outlines::plane(points, there(place("point")?), turn(place("normal")?))
+                ("line", &[a, b], None) => outlines::line(points, a, outlines::unit(minus(b, a))?),
+                ("plane", _, Some(At::Plane { point, normal })) => {
+                    outlines::plane(points, there(place(point)?), turn(place(normal)?))
                 }
-                ("plane", &[a, b, c]) => {
+                ("plane", &[a, b, c], None) => {
                     let normal = cross(minus(b, a), minus(c, a));
                     outlines::plane(points, a, outlines::unit(normal)?)
                 }
-                ("circle" | "sphere", &[center]) => {
-                    let center = place("center").map_or(center, &there);
+                ("circle" | "sphere", &[through], Some(At::Round { center, radius })) => {
+                    let center = place(center).map_or(through, &there);
                     let mut numbers = center.to_vec();
-                    numbers.push(number_or_middle(&at["radius"])?);
+                    numbers.push(Some(radius.middle()).filter(|x| x.is_finite())?);
                     numbers
                 }
-                ("arc", _) => through.concat(),
+                ("arc", ..) => through.concat(),
                 _ => return None,
             })
         };
@@ -457,7 +417,7 @@ impl<'a> Reader<'a> {
 
     /// The coordinates in which digits are stated, in words.
     pub fn gauge(&self) -> String {
-        match strings(&self.result["reference"])[..] {
+        match &self.drawing.reference[..] {
             [a, b] => format!("In coordinates with {a} at the origin and {b} on the x axis."),
             [a, b, c] => format!(
                 "In coordinates with {a} at the origin, {b} on the x axis and {c} in the xy plane."

@@ -1,15 +1,13 @@
 //! The page of a result of `solve`: the path through the sketch, and the solutions on it; or what came of blocks.
 
-use super::reader::{Reader, ShowError, choices, list, strings, text, wrong};
-use super::{Figure, Page, Text, Tone, path};
-use serde_json::Value;
+use super::reader::{Reader, choices, nothing};
+use super::{Figure, Page, ShowError, Text, Tone, path};
+use crate::report::document::{Blocks, Solution, Solve, Verb};
 
-pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
-    let result = reader.result;
+pub(super) fn page(reader: &Reader, run: &Solve) -> Result<Page, ShowError> {
     let mut page = reader.page("Sketch", "where the path begins, t = 0")?;
-    let mode = text(result, "mode")?;
-    let closed = text(result, "status")? == "closed";
-    let open = text(result, "status")? == "open";
+    let mode = &run.mode[..];
+    let (closed, open) = (run.status == "closed", run.status == "open");
     page.rate(match (mode, closed) {
         ("certified", false) if open => ("proved · between the ends of the path", Tone::Proved),
         ("certified", true) => ("proved · complete for this path", Tone::Proved),
@@ -20,52 +18,49 @@ pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
         ),
         (_, false) => ("stopped", Tone::Stopped),
     });
-    page.verdict = text(result, "verdict")?.to_owned();
-    page.paths.extend(path::read(reader, result)?);
+    page.verdict = run.verdict.clone();
+    page.paths
+        .extend(path::read(reader, &run.samples, &run.folds)?);
     let sketch = &mut page.figures[0];
     (sketch.path, sketch.at, sketch.t) = (Some(0), Some(0.0), Some(0.0));
-    let solutions = list(result, "solutions")?;
-    for (k, found) in solutions.iter().enumerate() {
-        page.figures
-            .push(solution(reader, k, found).ok_or(wrong("solutions"))?);
+    for (k, found) in run.solutions.iter().enumerate() {
+        page.figures.push(solution(reader, k, found)?);
     }
     if let Some(accuracy) = page.paths.iter_mut().find_map(|p| p.accuracy.as_mut()) {
-        let widths = solutions.iter().map(|s| path::width(reader, &s["points"]));
+        let widths = run.solutions.iter().map(|s| path::width(&s.points));
         accuracy.figures = std::iter::once(None).chain(widths).collect();
     }
-    page.text = words(mode, closed, open, reader);
+    page.text = words(run, closed, open);
     if mode != "certified" {
         page.digits = reader.gauge();
     }
-    page.rows = rows(result);
+    page.rows = rows(reader, run);
     Ok(page)
 }
 
 /// Figures of the whole that are made of solutions of its blocks.
-pub(super) fn blocks(reader: &Reader) -> Result<Page, ShowError> {
-    let blocks = &reader.result["blocks"];
+pub(super) fn blocks(reader: &Reader, run: &Solve, blocks: &Blocks) -> Result<Page, ShowError> {
     let mut page = reader.page("Sketch", "not a solution: drawn for comparison")?;
-    page.rate(match blocks["proved"].as_bool() {
-        Some(true) => (
+    page.rate(match blocks.proved {
+        true => (
             "proved · complete for the paths of the blocks",
             Tone::Proved,
         ),
-        _ => ("proved in part", Tone::Stopped),
+        false => ("proved in part", Tone::Stopped),
     });
-    page.verdict = text(blocks, "verdict")?.to_owned();
-    let runs = list(blocks, "runs")?;
+    page.verdict = blocks.verdict.clone();
     let mut listed = 0;
-    for (k, combined) in list(blocks, "figures")?.iter().enumerate() {
+    for (k, combined) in blocks.figures.iter().enumerate() {
         listed += 1;
         // Where its boxes are too wide there is nothing to draw.
-        if combined["points"].is_null() {
+        let Some(points) = &combined.points else {
             continue;
-        }
+        };
         page.figures.push(Figure {
             name: format!("Figure {}", k + 1),
-            note: choices(&combined["choices"]).ok_or(wrong("blocks"))?,
+            note: choices(&combined.choices),
             class: Some(k),
-            ..reader.figure(&combined["points"], &Value::Null, "blocks")?
+            ..reader.figure(points, &nothing())?
         });
     }
     page.text = vec![
@@ -76,24 +71,28 @@ pub(super) fn blocks(reader: &Reader) -> Result<Page, ShowError> {
                 .into(),
         ),
         Text::List(
-            runs.iter()
-                .map(|run| {
-                    let named = strings(&run["names"]).join(", ");
-                    Ok(format!("{named}: {}", text(run, "verdict")?))
+            blocks
+                .runs
+                .iter()
+                .filter_map(|run| match &run.own {
+                    Verb::Solve(own) => {
+                        Some(format!("{}: {}", run.drawing.names.join(", "), own.verdict))
+                    }
+                    _ => None,
                 })
-                .collect::<Result<_, ShowError>>()?,
+                .collect(),
         ),
     ];
-    if let Some(reason) = reader.result["reason"].as_str() {
+    if let Some(reason) = &run.reason {
         page.text
             .push(Text::Paragraph(format!("Why the whole stopped: {reason}.")));
     }
     let shown = page.figures.len() - 1;
     page.rows = vec![
-        ("blocks".into(), runs.len().to_string()),
+        ("blocks".into(), blocks.runs.len().to_string()),
         (
             "figures".into(),
-            match blocks["count"].as_u64() {
+            match blocks.count {
                 Some(count) if count > listed => {
                     format!("{count}, the first {shown} of them here (`--all`: all)")
                 }
@@ -105,76 +104,65 @@ pub(super) fn blocks(reader: &Reader) -> Result<Page, ShowError> {
     Ok(page)
 }
 
-fn solution(reader: &Reader, k: usize, solution: &Value) -> Option<Figure> {
-    let class = solution["class"].as_u64()? as usize;
-    let folds = solution["folds"].as_u64().map(|n| n as usize);
+fn solution(reader: &Reader, k: usize, solution: &Solution) -> Result<Figure, ShowError> {
+    let &Solution { class, folds, .. } = solution;
     let mut note = match folds {
         Some(0) => "reached without a fold".to_owned(),
         Some(1) => "after a fold".to_owned(),
         Some(n) => format!("after {n} folds"),
         None => format!("class {class}"),
     };
-    if let Some(other) = solution["mirror_of"].as_u64() {
+    if let Some(other) = solution.mirror_of {
         note += &format!(", mirror image of {}", other + 1);
     }
-    if solution["degenerate"].as_bool() == Some(true) {
+    if solution.degenerate {
         note += ", degenerate (flat)";
     }
-    Some(Figure {
+    Ok(Figure {
         name: format!("Solution {}", k + 1),
         note,
         class: Some(class),
         path: Some(0),
-        at: solution["arc"].as_f64(),
+        at: solution.arc,
         t: Some(1.0),
         folds,
-        ..reader
-            .figure(&solution["points"], &solution["objects"], "solutions")
-            .ok()?
+        ..reader.figure(&solution.points, &solution.objects)?
     })
 }
 
-fn rows(result: &Value) -> Vec<(String, String)> {
+fn rows(reader: &Reader, run: &Solve) -> Vec<(String, String)> {
     let mut rows = Vec::new();
     let mut row = |label: &str, value: String| rows.push((label.to_owned(), value));
-    let plain = |value: &Value| match value {
-        Value::String(text) => text.clone(),
-        other => other.to_string(),
+    let rounded = |x: Option<f64>| match x.filter(|x| x.is_finite()) {
+        Some(x) => format!("{x:.6}"),
+        None => "?".to_owned(),
     };
-    let rounded = |value: &Value| value.as_f64().map_or("?".into(), |x| format!("{x:.6}"));
-    row(
-        "mode, space",
-        format!("{}, {}", plain(&result["mode"]), plain(&result["space"])),
-    );
+    row("mode, space", format!("{}, {}", run.mode, run.space));
     row(
         "steps, rejected",
-        format!("{}, {}", result["steps"], result["rejected"]),
+        format!("{}, {}", run.steps, run.rejected),
     );
-    row("length of the path", rounded(&result["length"]));
-    let range = &result["t_range"];
-    row(
-        "range of t",
-        format!("{} to {}", rounded(&range[0]), rounded(&range[1])),
-    );
-    row("seconds", rounded(&result["seconds"]));
-    let options = &result["options"];
-    if !options["bend"].is_null() {
-        let bend = [0, 1].map(|k| plain(&options["bend"][k])).join("-");
-        let c = plain(&options["bend_coefficient"]);
-        row("bend", format!("{bend}, c = {c}"));
+    row("length of the path", rounded(run.length));
+    let [low, high] = run.t_range.map(rounded);
+    row("range of t", format!("{low} to {high}"));
+    row("seconds", rounded(Some(run.seconds)));
+    if let Some(bend) = &run.options.bend {
+        let c = &run.options.bend_coefficient;
+        row("bend", format!("{}, c = {c}", bend.join("-")));
     }
-    for text in result["switched_on"].as_array().into_iter().flatten() {
-        row("switched on", plain(text));
+    for text in &run.switched_on {
+        row("switched on", text.clone());
     }
-    row("written by", format!("krawl {}", plain(&result["krawl"])));
-    if let Some(source) = result["source"].as_str() {
-        row("source", source.to_owned());
+    row("written by", format!("krawl {}", reader.drawing.krawl));
+    if !reader.drawing.source.is_empty() {
+        row("source", reader.drawing.source.clone());
     }
     rows
 }
 
 /// The answer explained.
-fn words(mode: &str, closed: bool, open: bool, reader: &Reader) -> Vec<Text> {
+fn words(run: &Solve, closed: bool, open: bool) -> Vec<Text> {
+    let mode = &run.mode[..];
     let paragraph = |text: &str| Text::Paragraph(text.to_owned());
     let mut out = vec![paragraph(
         "The sketch's dimensions are led to the wanted ones together: t = 0 is the sketch, and at t = 1 all \
@@ -182,9 +170,7 @@ fn words(mode: &str, closed: bool, open: bool, reader: &Reader) -> Vec<Text> {
          path meets t = 1 there is a solution. Solutions of one colour are congruent: the same figure, or \
          its mirror image.",
     )];
-    let solutions = reader.result["solutions"].as_array();
-    let mut solutions = solutions.into_iter().flatten();
-    let is_flat = solutions.any(|solution| solution["degenerate"].as_bool() == Some(true));
+    let is_flat = run.solutions.iter().any(|solution| solution.degenerate);
     match (mode, closed) {
         ("certified", true) => {
             out.push(paragraph(
@@ -223,7 +209,7 @@ fn words(mode: &str, closed: bool, open: bool, reader: &Reader) -> Vec<Text> {
              the path are only those listed.",
         ));
     }
-    if let Some(reason) = reader.result["reason"].as_str() {
+    if let Some(reason) = &run.reason {
         out.push(Text::Paragraph(format!("Why it stopped: {reason}.")));
     }
     out

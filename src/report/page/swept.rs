@@ -1,20 +1,20 @@
 //! The page of a sweep: the mechanism at every value of the dimension that drives it, the frames being the path.
 
-use super::reader::{Reader, ShowError, digits, list, middle, pair, text, wrong};
-use super::{Figure, Level, Page, Path, Sample, Text, Tone};
-use serde_json::Value;
+use super::reader::{Reader, digits, middle, nothing};
+use super::{Figure, Level, Page, Path, Sample, ShowError, Text, Tone};
+use crate::report::document::{Dimension, Sweep, wrong};
 
-pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
-    let result = reader.result;
+pub(super) fn page(reader: &Reader, sweep: &Sweep) -> Result<Page, ShowError> {
     let mut page = reader.page("In the file", "the figure that the sweep sets out from")?;
-    let name = text(result, "dimension")?;
-    let status = text(result, "status")?;
-    page.rate(match status {
+    let Dimension::Driven(name) = &reader.drawing.dimension else {
+        return Err(wrong("dimension"));
+    };
+    page.rate(match &sweep.status[..] {
         "reached" => ("proved", Tone::Proved),
         "limit" => ("proved · up to the limit", Tone::Proved),
         _ => ("proved in part", Tone::Stopped),
     });
-    page.verdict = reader.words()?;
+    page.verdict = reader.words(&sweep.words);
     // The dimension that is driven has no one length.
     let ends = reader.ends_of(name);
     for bar in page.bars.iter_mut().filter(|bar| Some(bar.ends) == ends) {
@@ -22,12 +22,12 @@ pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
         bar.label = name.to_owned();
     }
     page.labels = reader.labels(|driven| (driven == name).then(|| name.to_owned()));
-    let frames = list(result, "frames")?;
+    let frames = &sweep.frames;
     let mut samples: Vec<Sample> = Vec::with_capacity(frames.len());
     let mut levels = Vec::new();
     for (k, frame) in frames.iter().enumerate() {
-        let value = pair(&frame["value"]).ok_or(wrong("frames"))?;
-        let figure = reader.figure(&frame["points"], &Value::Null, "frames")?;
+        let value = frame.value;
+        let figure = reader.figure(&frame.points, &nothing())?;
         let sample = sample(middle(value), &figure, samples.last());
         if k == 0 || k + 1 == frames.len() {
             let (label, which) = match k {
@@ -48,12 +48,12 @@ pub(super) fn page(reader: &Reader) -> Result<Page, ShowError> {
         }
         samples.push(sample);
     }
-    if status == "limit" {
+    if let Some(end) = sweep.end.as_ref().filter(|_| sweep.status == "limit") {
         page.figures.push(Figure {
             name: "At the limit".into(),
             note: "no further this way".into(),
             class: Some(2),
-            ..reader.figure(&result["end"]["points"], &Value::Null, "end")?
+            ..reader.figure(&end.edit.points, &nothing())?
         });
     }
     page.text = vec![Text::Paragraph(format!(

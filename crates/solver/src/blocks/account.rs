@@ -7,7 +7,7 @@
 use super::whose::Whose;
 use crate::interval::{Interval, hull, point};
 use crate::problem::{Decimal, Problem, either};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Names in one list of a sentence; the others are counted.
 const LISTED: usize = 12;
@@ -17,12 +17,12 @@ const LISTED: usize = 12;
 pub const LEAST_PART: f64 = 1e-7;
 
 /// What a claim is proved of.
-#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Account {
     /// How many equations were used.
     pub equations: usize,
     /// What is said by those of them that are none of the problem's, in words: contacts that are kept.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub added: Vec<String>,
     /// The constraints that are none of these.
     pub left_out: Vec<LeftOut>,
@@ -36,12 +36,12 @@ pub struct Account {
     pub without_a_kind: Vec<String>,
     /// How often on the way equations and what is held were chosen anew: each of `held` is then held on a part of the way, and
     /// a constraint may be left out on a part of it.
-    #[serde(skip_serializing_if = "is_zero")]
+    #[serde(default, skip_serializing_if = "is_zero")]
     pub chosen_anew: usize,
 }
 
 /// A constraint that was left out.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct LeftOut {
     /// What people call it.
     pub name: String,
@@ -53,7 +53,7 @@ pub struct LeftOut {
 }
 
 /// Why a constraint was left out.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Why {
     /// It follows from those used, by an identity that was proved.
@@ -65,7 +65,7 @@ pub enum Why {
 /// How figures stand to a constraint that was left out. Numbers are in the unit of its number: a length for a distance, a
 /// radius, a coordinate. What has another number (an angle, a ratio) or none is told as a length: how far the two sides of
 /// its equation are apart, divided by the power of the figure's mean length that makes a length of it.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "verdict", rename_all = "snake_case")]
 pub enum Verdict {
     /// It holds wherever those used do.
@@ -90,7 +90,7 @@ pub enum Verdict {
 }
 
 /// A coordinate that is held.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Held {
     /// What people call it: `x of B`, `the radius of c`.
     pub what: String,

@@ -147,7 +147,7 @@ impl Complete {
 }
 
 /// Unknowns that are constructed, step by step, as functions of a few of them.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct Constructed {
     /// How many they are.
     pub unknowns: usize,
@@ -156,7 +156,7 @@ pub struct Constructed {
 }
 
 /// What is placed in one of several ways, whatever else there is.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Choice {
     /// The points and objects that are placed, beside what they hang on.
     pub names: Vec<String>,

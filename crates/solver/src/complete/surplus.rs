@@ -13,7 +13,7 @@ use crate::places::Each as _;
 use crate::problem::{Distance, Problem, Target, free_coordinates, rigidity, rigidity_row};
 use crate::system::typical_length;
 use crate::track::{Mode, Outcome};
-use serde::Serialize;
+use serde::{Deserialize, Deserializer, Serialize};
 
 /// A distance that was left out of a search.
 #[derive(Debug, Clone, PartialEq)]
@@ -38,7 +38,7 @@ pub struct Surplus {
 }
 
 /// What came of the figures that have the distances used.
-#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Tested {
     /// How many distances (or equations) were used, and how many there are.
     pub used: usize,
@@ -55,9 +55,10 @@ pub struct Tested {
     /// How many were proved to miss one. They are no solutions.
     pub missed: usize,
     /// Each of these misses one by at least this; infinity where there are none.
-    #[serde(rename = "missed_by")]
+    #[serde(rename = "missed_by", deserialize_with = "infinity")]
     pub by: f64,
     /// All of those that meet them do so within this; minus infinity where there are none.
+    #[serde(deserialize_with = "minus_infinity")]
     pub within: f64,
     /// Of how many it is not decided.
     pub undecided: usize,
@@ -67,8 +68,17 @@ pub struct Tested {
     /// What was left out, by name.
     pub left_out: Vec<String>,
     /// What was held beside.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub added: Vec<String>,
+}
+
+/// JSON has no infinities, and `null` in their place.
+fn infinity<'de, D: Deserializer<'de>>(number: D) -> Result<f64, D::Error> {
+    Ok(Option::deserialize(number)?.unwrap_or(f64::INFINITY))
+}
+
+fn minus_infinity<'de, D: Deserializer<'de>>(number: D) -> Result<f64, D::Error> {
+    Ok(Option::deserialize(number)?.unwrap_or(f64::NEG_INFINITY))
 }
 
 impl Tested {

@@ -3,10 +3,11 @@
 use super::Same;
 use super::boxes::{SolutionBox, SolutionSet};
 use super::system::{Signs, System};
+use serde::{Deserialize, Serialize};
 
 /// The number of solutions, counted in three ways. In a frame of the problem's own there is no motion to divide by: the last
 /// two numbers are that of solutions, and the first is that with directions of lines and normals of planes reversed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct Counts {
     /// In the gauge: every solution of the equations.
     pub gauge: usize,

@@ -31,13 +31,13 @@ use crate::system::Located;
 use crate::track::{Control, Options};
 use parts::{may_be_reversed, parts_of, vanishes, verdict};
 use search::Search;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 pub use first::{First, WithSenses};
 pub use senses::{Comparison, Sense};
 
 /// How the solutions of a block are found.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Way {
     /// By formula: they are all.
@@ -47,7 +47,7 @@ pub enum Way {
 }
 
 /// What became of a block, over all solutions of those that it needs.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct BlockAccount {
     /// The names of its unknowns.
     pub unknowns: Vec<String>,

@@ -1,0 +1,81 @@
+//! What `krawl limits` writes.
+
+use super::{Bounds, Document, Drawing, Named, Points, Verb, all, bounds, names, points};
+use crate::blocks::Account;
+use crate::edit::{End, Moved, Range};
+use crate::interval::Interval;
+use crate::problem::Problem;
+use crate::report::limit_in_words;
+
+keys! {
+    /// How far each dimension can go alone.
+    Limits(problem: &Problem, ranges: &[Range], moved: Moved) {
+        /// How far the sketch was led before.
+        moved: f64 = moved.distance,
+        /// The dimensions by name.
+        ranges: Named<RangeOf> = Named(all(ranges, |range| {
+            (problem.dimension_name(range.index), RangeOf::new(problem, range))
+        })),
+    }
+}
+
+keys! {
+    /// How far a dimension can go.
+    RangeOf(problem: &Problem, range: &Range) {
+        /// Its number.
+        constraint: usize = range.index,
+        /// What it is.
+        value: Bounds = bounds(&range.value),
+        /// Of what the ends are proved.
+        account: Account = range.account.clone(),
+        /// Where it shrinks to.
+        low: RangeEnd = RangeEnd::of(problem, &range.low, &range.low_figure),
+        /// Where it grows to.
+        high: RangeEnd = RangeEnd::of(problem, &range.high, &range.high_figure),
+    }
+}
+
+keys! {
+    /// An end of a range.
+    RangeEnd(status: &str, value: &Interval) {
+        /// `limit`, `reached` where none was met, or `stopped`.
+        status: String = status.into(),
+        /// The dimension there.
+        value: Bounds = bounds(value),
+    } or nothing {
+        /// Points on one line or in one plane at a limit.
+        flat: Option<Vec<Vec<String>>> = None,
+        /// What is special about a limit.
+        words: Option<String> = None,
+        /// The figure at a limit.
+        points: Option<Points<Bounds>> = None,
+        /// Why nothing could be proved beyond.
+        reason: Option<String> = None,
+    }
+}
+
+impl RangeEnd {
+    fn of(problem: &Problem, end: &End, figure: &[[Interval; 3]]) -> Self {
+        match end {
+            End::Limit(value, limit) => RangeEnd {
+                flat: Some(all(&limit.flat, |set| names(problem, set))),
+                words: Some(limit_in_words(problem, limit)),
+                points: Some(points(problem, figure)),
+                ..Self::new("limit", value)
+            },
+            End::Beyond(value) => Self::new("reached", value),
+            End::Unknown(value, reason) => RangeEnd {
+                reason: Some(reason.to_string()),
+                ..Self::new("stopped", value)
+            },
+        }
+    }
+}
+
+impl Document {
+    /// The ranges of dimensions.
+    pub fn limits(problem: &Problem, ranges: &[Range], moved: Moved) -> Document {
+        let own = Verb::Limits(Limits::new(problem, ranges, moved));
+        Document::of(Drawing::new("limits", problem), own)
+    }
+}
