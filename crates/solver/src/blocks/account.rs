@@ -29,10 +29,10 @@ pub struct Account {
     /// The coordinates (or radii, directions) that are held because nothing determines them.
     pub held: Vec<Held>,
     /// What is left as it is in the file of another program.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub kept: Vec<String>,
     /// Because of what, each with its number: `Ellipse (2)`.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub without_a_kind: Vec<String>,
     /// How often on the way equations and what is held were chosen anew: each of `held` is then held on a part of the way, and
     /// a constraint may be left out on a part of it.
