@@ -11,6 +11,7 @@ mod events;
 mod first;
 #[doc(hidden)]
 pub mod flexible;
+mod float;
 #[doc(hidden)]
 pub mod full;
 mod options;

@@ -1,28 +1,29 @@
-//! What a float run in the full space has seen so far.
+//! What a float run has seen so far, in either space.
 
+use super::Stuck;
 use crate::interval::point;
-use crate::linalg::{Matrix, Vector};
+use crate::linalg::Vector;
 use crate::places::array;
 use crate::system::Homotopy;
-use crate::track::full::{Equations, Local, ORDER, Preconditioner};
+use crate::track::full::{Equations, Local, Preconditioner};
 use crate::track::{
     Control, Driving, Mode, Options, Outcome, Progress, Space, Status, Stop, StopKind,
     observed_solutions,
 };
+use std::time::Instant;
 
 /// Two figures are the same solution if no coordinate differs by more than this times the
 /// figure's size. Newton's method brings them to about 1e-15 times a condition number.
 const SAME_FIGURE: f64 = 1e-9;
-/// Lengths of congruent figures agree to that, relative to the figure's size.
-const SAME_LENGTH: f64 = 1e-9;
 
-/// Solutions and counters of a run with some preconditioner.
+/// Solutions and counters of a run.
 #[derive(Debug)]
-pub struct Record<Y = Matrix> {
-    found: Vec<Vector>,
+pub struct Record {
+    started: Instant,
+    /// All unknowns, and t = 1.
+    pub found: Vec<Vector>,
     /// Those of them that are flat figures at which the equations are dependent.
     flat: Vec<Vector>,
-    corrector: Local<{ ORDER + 1 }, Y>,
     /// Accepted and rejected steps.
     pub steps: usize,
     /// See `steps`.
@@ -33,23 +34,18 @@ pub struct Record<Y = Matrix> {
     pub t_range: (f64, f64),
 }
 
-impl<Y: Preconditioner> Record<Y> {
-    /// Nothing seen yet.
-    pub fn new(equations: &Equations) -> Self {
+impl Record {
+    /// Nothing seen yet, the run beginning now.
+    pub fn new() -> Self {
         Record {
+            started: Instant::now(),
             found: Vec::new(),
             flat: Vec::new(),
-            corrector: Local::new(equations),
             steps: 0,
             rejected: 0,
             length: 0.0,
             t_range: (f64::INFINITY, f64::NEG_INFINITY),
         }
-    }
-
-    /// The number of solutions so far.
-    pub fn solutions(&self) -> usize {
-        self.found.len()
     }
 
     /// Where the run is, in words.
@@ -72,7 +68,7 @@ impl<Y: Preconditioner> Record<Y> {
         let progress = Progress {
             t,
             steps: self.steps,
-            solutions: self.solutions(),
+            solutions: self.found.len(),
             length: self.length,
         };
         match control.is_cancelled(progress) {
@@ -84,15 +80,25 @@ impl<Y: Preconditioner> Record<Y> {
         }
     }
 
-    /// Corrects `guess` to a solution at t = 1 by Newton's method in X, and keeps it if it is new.
+    /// Why a run ends that is stuck at t.
+    pub fn stuck(&self, homotopy: &Homotopy, t: f64, Stuck { why, step }: Stuck) -> Stop {
+        let words = format!(
+            "{why} at the smallest step, {:.1e}, {}{}",
+            step * homotopy.unit,
+            self.place(t),
+            homotopy.remark_on_lengths(t)
+        );
+        Stop::new(StopKind::NoStep, words)
+    }
+
+    /// Corrects `guess` to a solution at t = 1 by Newton's method in X, in `local`, and keeps it if it is new.
     /// `None`: the method does not converge.
-    pub fn solution(
+    pub fn solution<const N: usize, Y: Preconditioner>(
         &mut self,
-        equations: &Equations,
-        inverter: &mut Y::Maker,
+        (equations, inverter): (&Equations, &mut Y::Maker),
+        local: &mut Local<N, Y>,
         guess: &[f64],
     ) -> Option<()> {
-        let local = &mut self.corrector;
         local.z[0].copy_from_slice(guess);
         local.refine_at(equations, inverter, 1.0)?;
         let x = local.z[0].clone();
@@ -119,7 +125,18 @@ impl<Y: Preconditioner> Record<Y> {
         is_new
     }
 
-    /// Joins what was seen the other way from the sketch: its solutions come first, the last one foremost.
+    /// The other way from the sketch the run came back to it: what was seen there is all there is.
+    pub fn give_way_to(&mut self, back: Self) {
+        *self = Record {
+            started: self.started,
+            steps: self.steps + back.steps,
+            rejected: self.rejected + back.rejected,
+            ..back
+        };
+    }
+
+    /// Joins what was seen the other way from the sketch: its solutions come first, the last one foremost. Both ways
+    /// begin at t = 0.
     pub fn go_on_from(&mut self, back: Self, m: usize) {
         let ahead = std::mem::replace(&mut self.found, back.found);
         self.found.reverse();
@@ -132,6 +149,7 @@ impl<Y: Preconditioner> Record<Y> {
         self.length += back.length;
         let ((low, high), behind) = (self.t_range, back.t_range);
         self.t_range = (low.min(behind.0), high.max(behind.1));
+        self.meet(0.0);
     }
 
     /// Takes note of a t that was met.
@@ -139,8 +157,9 @@ impl<Y: Preconditioner> Record<Y> {
         self.t_range = (self.t_range.0.min(t), self.t_range.1.max(t));
     }
 
-    /// The run's result. Where a length or radius is not positive, or a leg has vanished, there is no figure.
-    pub fn into_outcome(mut self, homotopy: &Homotopy, status: Status, seconds: f64) -> Outcome {
+    /// The run's result in the full space. Lengths of congruent figures agree to `same`, relative to the figure's size.
+    /// Where a length or radius is not positive, or a leg has vanished, there is no figure.
+    pub fn into_outcome(mut self, homotopy: &Homotopy, status: Status, same: f64) -> Outcome {
         let d = homotopy.dimension;
         if !homotopy.tail.is_empty() {
             self.found
@@ -159,7 +178,7 @@ impl<Y: Preconditioner> Record<Y> {
                     .collect()
             })
             .collect();
-        let mut solutions = observed_solutions(figures, SAME_LENGTH);
+        let mut solutions = observed_solutions(figures, same);
         for (solution, x) in solutions.iter_mut().zip(&self.found) {
             solution.objects = homotopy.locate(&solution.points, &|i| point(x[i]));
             let auxiliary = homotopy.auxiliary_unknowns();
@@ -190,7 +209,7 @@ impl<Y: Preconditioner> Record<Y> {
             driving: Driving::default(),
             length: self.length,
             t_range: self.t_range,
-            seconds,
+            seconds: self.started.elapsed().as_secs_f64(),
             switched_on: Vec::new(),
         }
     }
