@@ -9,6 +9,7 @@ mod control;
 mod ends;
 mod events;
 mod first;
+mod flat;
 #[doc(hidden)]
 pub mod flexible;
 mod float;

@@ -31,7 +31,7 @@ use crate::track::{
 };
 use arc::Arc;
 use creep::Creep;
-use crossing::{Beyond, Crossing};
+use crossing::{Beyond, Crossing, TRIALS};
 use extension::Extension;
 use open::{CameTo, Halt};
 use pace::Pace;
@@ -288,8 +288,9 @@ impl<'a, const N: usize, T: Test<N>> Tracker<'a, N, T> {
                     steps_ahead.accept(h);
                     limit = (2.0 * limit).min(max_h);
                     self.account_for_precision();
-                    if self.crossing.is_some()
-                        && self.is_at_crossing()
+                    let (homotopy, local) = (&self.homotopy, &self.now.local);
+                    if let Some(crossing) = &mut self.crossing
+                        && TRIALS.is_due(homotopy, local, &mut crossing.failed)
                         && self.cross(options, control)
                     {
                         steps_ahead = StepControl::new(&self.equations);
