@@ -1,14 +1,12 @@
 //! What a float run has seen so far, in either space.
 
 use super::Stuck;
-use crate::interval::point;
 use crate::linalg::Vector;
-use crate::places::array;
 use crate::system::Homotopy;
+use crate::track::certified::{Congruence, FigureBox, Same, classes, is_congruent};
 use crate::track::full::{Equations, Local, Preconditioner};
 use crate::track::{
-    Control, Driving, Mode, Options, Outcome, Progress, Space, Status, Stop, StopKind,
-    observed_solutions,
+    Control, Driving, Mode, Options, Outcome, Progress, Solution, Space, Status, Stop, StopKind,
 };
 use std::time::Instant;
 
@@ -157,46 +155,26 @@ impl Record {
         self.t_range = (self.t_range.0.min(t), self.t_range.1.max(t));
     }
 
-    /// The run's result in the full space. Lengths of congruent figures agree to `same`, relative to the figure's size.
+    /// The run's result in the full space. Congruent figures agree to `same`, relative to their size.
     /// Where a length or radius is not positive, or a leg has vanished, there is no figure.
     pub fn into_outcome(mut self, homotopy: &Homotopy, status: Status, same: f64) -> Outcome {
-        let d = homotopy.dimension;
+        let m = homotopy.equations;
         if !homotopy.tail.is_empty() {
-            self.found
-                .retain(|x| homotopy.is_proper(&x[..homotopy.equations]));
+            self.found.retain(|x| homotopy.is_proper(&x[..m]));
         }
-        let figures: Vec<Vec<[f64; 3]>> = self
-            .found
-            .iter()
-            .map(|x| {
-                let mut places = vec![0.0; homotopy.points * d];
-                homotopy.scatter(&x[..homotopy.equations], &mut places);
-                let unit = homotopy.unit;
-                places
-                    .chunks(d)
-                    .map(|p| array(|k| p.get(k).map_or(0.0, |x| x * unit)))
-                    .collect()
-            })
-            .collect();
-        let mut solutions = observed_solutions(figures, same);
-        for (solution, x) in solutions.iter_mut().zip(&self.found) {
-            solution.objects = homotopy.locate(&solution.points, &|i| point(x[i]));
-            let auxiliary = homotopy.auxiliary_unknowns();
-            solution.auxiliary = auxiliary.map(|i| point(x[i])).collect();
-        }
-        if !homotopy.tail.is_empty() {
-            let classes = classes(homotopy, &self.found);
-            for (solution, &class) in solutions.iter_mut().zip(&classes) {
-                solution.class = class;
-                // Points can be mirrored where lines between them are not.
-                let same = |&other: &usize| classes[other] == class;
-                solution.mirror_of = solution.mirror_of.filter(same);
+        let about = self.found.iter().map(|x| FigureBox::about(&x[..m], same));
+        let mut figures: Vec<FigureBox> = about.collect();
+        let classes = classes(&figures, |a, b| relation(homotopy, a, b), |_, _, _| {});
+        let all = figures.iter_mut().zip(&self.found).zip(classes);
+        let solutions = all.map(|((figure, x), class)| {
+            // What is told of it is a point.
+            figure.figure.radius.fill(0.0);
+            Solution {
+                is_degenerate: self.flat.iter().any(|flat| flat[..] == x[..]),
+                ..figure.solution(homotopy, class)
             }
-            let is_flat = |x: &Vector| self.flat.iter().any(|flat| flat[..] == x[..]);
-            for (solution, x) in solutions.iter_mut().zip(&self.found) {
-                solution.is_degenerate = is_flat(x);
-            }
-        }
+        });
+        let solutions = solutions.collect();
         Outcome {
             signed: None,
             mode: Mode::Float,
@@ -215,42 +193,56 @@ impl Record {
     }
 }
 
-/// Classes of congruent figures of a problem with other constraints than distances, by all of their unknowns:
-/// the isometries that keep the reference change signs. Where a constraint says which way round the figure is
-/// only those that do not mirror it count, and without a reference there are none.
-fn classes(homotopy: &Homotopy, found: &[Vector]) -> Vec<usize> {
-    let (m, d) = (homotopy.equations, homotopy.dimension);
-    let turns: Vec<usize> = (0..1usize << d)
-        .filter(|&turn| turn == 0 || !homotopy.gauge.reference.is_empty())
-        .filter(|turn| homotopy.tail.mirrors || turn.count_ones() % 2 == 0)
-        .collect();
-    let none = || vec![vec![false; m]];
-    let twins = homotopy.twins().unwrap_or_else(none);
-    let size = |x: &Vector| x[..m].iter().fold(0.0, |max: f64, x| max.max(x.abs()));
-    let differs = |one: &Vector, other: &Vector, turn: usize, i: usize, changed: bool| {
-        let flips = (0..d).filter(|&axis| turn >> axis & 1 == 1 && homotopy.flips(i, axis));
-        let sign = if (flips.count() % 2 == 1) ^ changed {
-            -1.0
-        } else {
-            1.0
-        };
-        (sign * one[i] - other[i]).abs() > SAME_FIGURE * size(one)
-    };
-    let is_image = |one: &Vector, other: &Vector, turn: usize, twin: &[bool]| {
-        !(0..m).any(|i| differs(one, other, turn, i, twin[i]))
-    };
-    let mut classes: Vec<usize> = Vec::new();
-    for (k, x) in found.iter().enumerate() {
-        let mut before = found[..k].iter();
-        let is_same = |y: &Vector, turn: usize| {
-            let apart = |i: usize, reversed: bool| differs(x, y, turn, i, reversed);
-            twins.iter().any(|twin| is_image(x, y, turn, twin))
-                // Or the same but for directions of lines and planes of their own.
-                || homotopy.may_be_reversed(&[], apart)
-        };
-        let same = before.position(|y| turns.iter().any(|&turn| is_same(y, turn)));
-        let next = classes.iter().max().map_or(0, |c| c + 1);
-        classes.push(same.map_or(next, |j| classes[j]));
+/// Whether two figures are congruent, as far as floats tell: also where they are the same, or differ in nothing but the
+/// directions of lines and planes of their own.
+fn relation(homotopy: &Homotopy, one: &FigureBox, other: &FigureBox) -> Congruence {
+    if one.is_same(other, |_| false) == Same::Yes {
+        return Congruence::Yes { mirrored: false };
     }
-    classes
+    match is_congruent(homotopy, one, other) {
+        Congruence::Reversed { mirrored } => Congruence::Yes { mirrored },
+        relation => relation,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plan::testing::shipped;
+
+    #[test]
+    fn tells_mirror_images_from_moved_figures() {
+        for name in ["dodecagon", "octahedron"] {
+            let homotopy = Homotopy::new(&shipped(name)).unwrap();
+            let (d, m) = (homotopy.dimension, homotopy.equations);
+            // With some axes reversed.
+            let figure = |reversed: &[usize]| {
+                let mut x = Vector::zeros(m + 1);
+                for (x, &place) in x.iter_mut().zip(&homotopy.gauge.place) {
+                    let sign = if reversed.contains(&(place % d)) {
+                        -1.0
+                    } else {
+                        1.0
+                    };
+                    *x = sign * homotopy.sketch[place];
+                }
+                x
+            };
+            let mut record = Record::new();
+            record.found = vec![figure(&[]), figure(&[d - 1]), figure(&[]), figure(&[0, 1])];
+            let mut other = figure(&[]);
+            other[m - 1] += 1e-3;
+            record.found.push(other);
+            let outcome = record.into_outcome(&homotopy, Status::Closed, 1e-9);
+            let seen = outcome.solutions.iter().map(|s| (s.class, s.mirror_of));
+            let wanted = [
+                (0, None),
+                (0, Some(0)),
+                (0, Some(1)),
+                (0, Some(1)),
+                (1, None),
+            ];
+            assert!(seen.eq(wanted), "{name}");
+        }
+    }
 }

@@ -17,7 +17,7 @@ use crate::track::events::{Crossing, TimeAlong};
 use crate::track::full::{Equations, InverseMaker, path_length};
 use crate::track::turns::{Stretch, Turns};
 
-pub use classes::{Congruence, is_congruent};
+pub use classes::{Congruence, classes, is_congruent};
 
 /// The account of a chain of linked tubes.
 #[derive(Debug)]
