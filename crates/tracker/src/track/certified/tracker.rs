@@ -83,7 +83,7 @@ pub fn track<const N: usize, T: Test<N>>(
     };
     let checked = match status {
         Status::Closed => tracker.ledger.check_closed(homotopy),
-        Status::Open(_) => tracker.ledger.check_open(homotopy),
+        Status::Open(_) => tracker.ledger.lengths_are_positive(homotopy),
         Status::Stopped(_) => Ok(()),
     };
     let of_all = |stop: Stop| {

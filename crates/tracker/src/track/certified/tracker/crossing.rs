@@ -221,7 +221,7 @@ impl<const N: usize, T: Test<N>> Tracker<'_, N, T> {
                 let gone = piece.go_on(&options, max_h, &mut quiet);
                 gone.map_err(|halt| words(halt.stop.text))?;
             }
-            if !piece.ledger.is_steady(rising) {
+            if !piece.ledger.turns.is_steady(rising) {
                 return Err(words(
                     "it is not certain that t goes through 1 without turning back".to_owned(),
                 ));
