@@ -24,7 +24,7 @@ mod tubes;
 pub use faults::inject as inject_fault;
 
 use crate::plan::testing;
-use along::{at_sketch, leads_truly, link_is_true, mirrored, on_path, sketch};
+use along::{at_sketch, leads_truly, link_is_true, mirrored, on_path};
 
 use super::link::Tube;
 use super::tracker::Test;
@@ -34,7 +34,9 @@ use crate::linalg::{Matrix, Vector};
 use crate::problem::{Decimal, Problem, Target};
 use crate::system::Homotopy;
 use crate::track::full::certified::KrawczykTest;
-use crate::track::full::{Equations, InverseMaker, Local, ORDER, Preconditioner, first_normal};
+use crate::track::full::{
+    Equations, InverseMaker, Local, ORDER, Preconditioner, first_normal, sketch,
+};
 use crate::track::reduced::certified::{Bounds, COEFFICIENTS, ReducedTest};
 use crate::track::{Control, Options, Solution, Space, Status, solve};
 
@@ -358,6 +360,14 @@ impl<const N: usize, T: Stated<N>> Maker<N, T> {
             }
         }
         chain
+    }
+}
+
+impl Shop {
+    /// What the bounds of a tube for |s| ≤ `h` are, whether or not they prove anything.
+    pub fn bounds_at(&mut self, tube: &mut ReducedTube, h: f64) -> Option<(Bounds, Vec<f64>)> {
+        self.test.bounds_at(&self.equations, tube, h)?;
+        Some(self.test.kept())
     }
 }
 

@@ -9,7 +9,7 @@ use crate::track::ends::ENDLESS;
 use crate::track::events::{Crossing, TimeAlong, halved};
 use crate::track::float::{self, Record, SMALLEST_STEP, Tried};
 use crate::track::full::{
-    CrossingRoom, Equations, Local, ORDER, Preconditioner, dot, first_normal, path_length,
+    CrossingRoom, Equations, Local, ORDER, Preconditioner, dot, first_normal, path_length, sketch,
 };
 use crate::track::{Control, Options, Outcome, Stop, StopKind};
 
@@ -51,10 +51,7 @@ pub fn follow<Y: Preconditioner>(
         .tolerance_in(homotopy.unit)
         .unwrap_or(POINT_TOLERANCE);
     let (mut now, mut next) = (Path::<Y>::new(equations), Path::<Y>::new(equations));
-    let mut sketch = equations.vector();
-    for (x, exact) in sketch.iter_mut().zip(homotopy.sketch_of_unknowns()) {
-        *x = exact.mid();
-    }
+    let sketch = sketch(homotopy, equations);
     now.z[0].copy_from_slice(&sketch);
     first_normal(equations, inverter, &mut now, options.reverse).map_err(|_| {
         let singular = || "the sketch is a singular point of its path".to_owned();
