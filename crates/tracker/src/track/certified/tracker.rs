@@ -267,7 +267,7 @@ impl<'a, const N: usize, T: Test<N>> Tracker<'a, N, T> {
             } else {
                 f64::NAN
             };
-            let known = self.ledger.solutions_so_far();
+            let known = self.ledger.found().len();
             match self.step(self.now.exit_at + reach, limit) {
                 Ok(is_done) => {
                     self.steps += 1;
@@ -334,7 +334,7 @@ impl<'a, const N: usize, T: Test<N>> Tracker<'a, N, T> {
             let progress = Progress {
                 t: self.now.local.z[0][self.equations.m],
                 steps: self.steps,
-                solutions: self.ledger.solutions_so_far(),
+                solutions: self.ledger.found().len(),
                 length: self.ledger.length,
             };
             if control.is_cancelled(progress) {
@@ -408,7 +408,7 @@ impl<'a, const N: usize, T: Test<N>> Tracker<'a, N, T> {
     fn begin(&mut self, start: &Figure) {
         self.equations.set_rights(&self.homotopy);
         self.ledger.begin(&self.homotopy);
-        if self.extension.is_on() {
+        if self.extension.on {
             self.test.set_extended(false);
         }
         self.extension = Extension::default();

@@ -164,11 +164,6 @@ impl Ledger {
         &self.found
     }
 
-    /// The number of solutions so far.
-    pub fn solutions_so_far(&self) -> usize {
-        self.found.len()
-    }
-
     /// Finds all solutions in a linked tube, from its entry to the parameter `to`, the path being followed to
     /// the parameter `until`; `extended` is whether their boxes are proved in extended precision. If it fails
     /// nothing is changed.

@@ -236,7 +236,7 @@ impl<const N: usize, T: Test<N>> Tracker<'_, N, T> {
                 }
             }
         };
-        crossing.passed += piece.ledger.solutions_so_far();
+        crossing.passed += piece.ledger.found().len();
         crossing.tubes += piece.steps + 1;
         self.steps += piece.steps + 1;
         self.rejected += piece.rejected;
@@ -278,7 +278,7 @@ impl<const N: usize, T: Test<N>> Tracker<'_, N, T> {
         let given = |found: &FigureBox| self.flat_solution(found, heights);
         let flat: Vec<FigureBox> = piece.ledger.found().iter().map(given).collect();
         self.ledger.pass_flat(&piece.ledger, flat, rising)?;
-        let known = self.ledger.solutions_so_far();
+        let known = self.ledger.found().len();
         // The tube around it comes in the next one's place, as one around the sketch.
         let mut normal = at_ball.normal.clone();
         std::mem::swap(&mut self.now, &mut self.next);

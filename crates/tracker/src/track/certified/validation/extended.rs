@@ -139,7 +139,7 @@ fn tubes(problem: Problem, random: &mut Random, tally: &mut Tally) {
             _ => (0..n).for_each(|i| local.low[i] += change[i]),
         }
         let max_h = 10f64.powf(random.between(-10.0, -3.0));
-        let weights = workshop.test.weights_mut().clone();
+        let weights = workshop.test.next_weights.clone();
         if !workshop.prove_as_it_is(&mut tube, weights, max_h) {
             tally.refused += 1;
             continue;
@@ -239,7 +239,7 @@ fn proved(
 ) -> Option<(f64, f64)> {
     let max_h = 10f64.powf(random.between(-10.0, -4.0));
     workshop.test.precision.extended = true;
-    let weights = workshop.test.weights_mut().clone();
+    let weights = workshop.test.next_weights.clone();
     if !workshop.prove_as_it_is(tube, weights, max_h) {
         return None;
     }

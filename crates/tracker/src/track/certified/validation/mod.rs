@@ -245,7 +245,7 @@ impl Stated<{ ORDER + 1 }> for KrawczykTest {
     type Kept = Matrix;
 
     fn kept(&self) -> Matrix {
-        self.moving_matrix().clone()
+        self.a.clone()
     }
 }
 
@@ -254,7 +254,7 @@ impl Stated<COEFFICIENTS> for ReducedTest {
     type Kept = (Bounds, Vec<f64>);
 
     fn kept(&self) -> (Bounds, Vec<f64>) {
-        (*self.stated(), self.defect().to_vec())
+        (self.last, self.defect.to_vec())
     }
 }
 
@@ -378,7 +378,7 @@ impl Workshop {
         let proof = test.prove(equations, &tube.local, &mut weights, max_h);
         if let Some(proof) = proof {
             tube.proof = proof;
-            tube.weights.copy_from_slice(test.weights());
+            tube.weights.copy_from_slice(&test.u);
             tube.exit_at = 0.97 * proof.h;
         }
         proof.is_some()

@@ -79,7 +79,7 @@ pub struct KrawczykTest {
     pub(in crate::track) u: Vector,
     square_u: Vector,
     /// Weights for the next proof, and those to return to if it is rejected.
-    next_weights: Vector,
+    pub(in crate::track) next_weights: Vector,
     kept_weights: Vector,
     maker: InverseMaker,
     workers: Workers,
@@ -279,24 +279,6 @@ pub(in crate::track) fn norm_of(v: &[f64], u: &[f64], n: usize) -> f64 {
     }
     let rest = v1.iter().zip(u1).map(|(v, u)| v.abs() / u);
     lane.into_iter().chain(rest).fold(0.0, largest)
-}
-
-#[cfg(test)]
-impl KrawczykTest {
-    /// The weights of the last proof.
-    pub(in crate::track) fn weights(&self) -> &Vector {
-        &self.u
-    }
-
-    /// The weights for the next one.
-    pub(in crate::track) fn weights_mut(&mut self) -> &mut Vector {
-        &mut self.next_weights
-    }
-
-    /// A of the last proof.
-    pub(in crate::track) fn moving_matrix(&self) -> &Matrix {
-        &self.a
-    }
 }
 
 impl Test<{ ORDER + 1 }> for KrawczykTest {

@@ -122,7 +122,8 @@ impl Crossing {
     }
 }
 
-fn distance(a: &[f64], b: &[f64]) -> f64 {
+/// The greatest difference of two entries.
+pub fn distance(a: &[f64], b: &[f64]) -> f64 {
     let pairs = a.iter().zip(b);
     pairs.fold(0.0, |max: f64, (x, y)| max.max((x - y).abs()))
 }

@@ -1,6 +1,6 @@
 //! Predictor and corrector with steps chosen from the corrector's contraction.
 
-use super::crossing::Crossing as FlatCrossing;
+use super::crossing::{Crossing as FlatCrossing, distance};
 use super::open::{Ends, Halt, endless, follow_both_ways};
 use crate::linalg::{Matrix, Vector};
 use crate::places::array;
@@ -205,8 +205,7 @@ impl<Y: Preconditioner> Events<Y> {
         let back = self.middle(now, next, half);
         // At hairpins that says little of the expansions themselves, as the prediction is better.
         next.at(back, &mut self.other);
-        let ends = self.scratch.iter().zip(self.other.iter());
-        let apart = ends.fold(0.0, |max: f64, (x, y)| max.max((x - y).abs()));
+        let apart = distance(&self.scratch, &self.other);
         if apart > APART * step {
             return Err("the expansions at a step's two ends do not meet");
         }
@@ -275,9 +274,7 @@ impl<Y: Preconditioner> Events<Y> {
         } else {
             next.at(at, &mut self.scratch);
         }
-        let away = (0..n).fold(0.0, |max: f64, i| {
-            max.max((self.scratch[i] - sketch[i]).abs())
-        });
+        let away = distance(&self.scratch[..n], sketch);
         (away <= 10.0 * next.first_correction + 100.0 * self.tolerance.max(POINT_TOLERANCE))
             .then_some(at)
     }

@@ -72,8 +72,8 @@ pub struct ReducedTest {
     pub(super) shape: Shape,
     pub(super) sides: Sides,
     /// What bounds Φ(0), row by row, and all bounds, of the last attempt.
-    pub(super) defect: Vector,
-    pub(super) last: Bounds,
+    pub(in crate::track) defect: Vector,
+    pub(in crate::track) last: Bounds,
     /// The half length of the tube before, and the reach of its Taylor polynomial.
     expected: f64,
     reach: f64,
@@ -241,11 +241,6 @@ impl Test<COEFFICIENTS> for ReducedTest {
 
 #[cfg(test)]
 impl ReducedTest {
-    /// The bounds of the last proof.
-    pub fn stated(&self) -> &Bounds {
-        &self.last
-    }
-
     /// The bounds for |s| ≤ `h`, whether or not they prove anything, the series being made anew.
     pub fn bounds_at(&mut self, equations: &Equations, tube: &mut Tubes, h: f64) -> Option<Bounds> {
         let (width, series) = (tube.local.y.elimination.reduced.width, &mut self.series);
@@ -254,11 +249,6 @@ impl ReducedTest {
         let n = equations.n();
         tube.weights[..n].copy_from_slice(&self.shape.omega[..n]);
         Some(bounds)
-    }
-
-    /// What bounds Φ(0) row by row.
-    pub fn defect(&self) -> &Vector {
-        &self.defect
     }
 
     /// The weights of the unknowns, for what is proved next.

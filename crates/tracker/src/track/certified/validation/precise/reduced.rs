@@ -120,17 +120,6 @@ pub fn check_resolvent(
 ) -> Option<()> {
     let y = &view.tube.local.y;
     let s = Big::of(parameter(random, h));
-    let jacobian = view.figure.jacobian(&view.at(&s).0);
-    let a = view
-        .rows
-        .iter()
-        .map(|&e| {
-            view.unknowns
-                .iter()
-                .map(|&i| jacobian[e][i].clone())
-                .collect()
-        })
-        .collect();
     let g = right_hand_sides(random, view.rows.len());
     let sizes: Vec<[f64; LANE]> = g.iter().map(|g| g.each(f64::abs)).collect();
     let (mut work, mut bound) = (sizes.clone(), sizes.clone());
@@ -138,7 +127,7 @@ pub fn check_resolvent(
     y.resolvent
         .bound(equations, layout, &sizes, &mut work, &mut bound);
     let g = g.iter().map(|g| exact(g)).collect();
-    for (v, bound) in solve(a, g)?.iter().zip(&bound) {
+    for (v, bound) in solve(view.a(&s), g)?.iter().zip(&bound) {
         for (v, &bound) in v.iter().zip(bound) {
             let bound = round_up(bound, y.resolvent.roundings());
             ratios.check("|A⁻¹ g|", &v.abs(), bound);

@@ -7,6 +7,7 @@ use super::*;
 use crate::linalg::Vector;
 use crate::track::certified::link::Frame;
 use crate::track::certified::tracker::Test;
+use crate::track::reduced::certified::Reduction;
 
 /// |T v| from |v|, and |𝒴 g|_ρ / (1 − q) from g.
 fn check_problem(case: &Case, tubes: usize, random: &mut Random, ratios: &mut Ratios) {
@@ -89,30 +90,20 @@ fn check_problem(case: &Case, tubes: usize, random: &mut Random, ratios: &mut Ra
                 .map(Big::to_f64)
                 .collect();
             let extent = view.sheared(&k, &exact(&away), true);
-            let stated = tube.local.y.extent(
-                &tube.weights[..n],
-                place,
-                |i| (away[i], 0.0),
-                |i| (away[i], 0.0),
-            );
-            ratios.check("extent of T v", &view.norm(&extent), stated);
+            let known = |i: usize| (away[i], 0.0);
+            let stated = |y: &Reduction| y.extent(&tube.weights[..n], place, known, known);
+            ratios.check("extent of T v", &view.norm(&extent), stated(&tube.local.y));
             // Without the key unknowns' own, which are much larger.
             let mut own = tube.local.y.clone();
             view.keys
                 .iter()
                 .for_each(|&key| own.rho[key] = f64::INFINITY);
-            let stated = own.extent(
-                &tube.weights[..n],
-                place,
-                |i| (away[i], 0.0),
-                |i| (away[i], 0.0),
-            );
             let inner = view
                 .unknowns
                 .iter()
                 .map(|&i| extent[i].abs() / Big::of(own.rho[i]));
             let inner = inner.fold(Big::of(0.0), Big::max);
-            ratios.check("extent of T v in A", &inner, stated);
+            ratios.check("extent of T v in A", &inner, stated(&own));
         }
     }
 }
