@@ -1,64 +1,5 @@
 //! Which figures are the same up to rigid motions and reflections.
 
-use super::Solution;
-use crate::interval::point;
-use crate::interval::vector::{cross, dot, minus};
-use crate::places::Each as _;
-
-/// What a float run found, as solutions: thin boxes, with their classes of congruence.
-pub fn observed_solutions(figures: Vec<Vec<[f64; 3]>>, tolerance: f64) -> Vec<Solution> {
-    let classes = congruence_classes(&figures, tolerance);
-    let mirrors: Vec<Option<usize>> = (0..figures.len())
-        .map(|k| {
-            let same = (0..k).filter(|&j| classes[j] == classes[k]);
-            let mut mirrored = same.filter(|&j| is_mirrored(&figures[j], &figures[k]));
-            mirrored.next()
-        })
-        .collect();
-    let thin = |((figure, class), mirror_of): ((Vec<[f64; 3]>, usize), Option<usize>)| {
-        let points = figure.into_iter().map(|p| p.each(point)).collect();
-        Solution {
-            mirror_of,
-            ..Solution::placed(points, class)
-        }
-    };
-    figures
-        .into_iter()
-        .zip(classes)
-        .zip(mirrors)
-        .map(thin)
-        .collect()
-}
-
-/// Of two congruent figures, whether one is the mirror image of the other and not the other moved: by
-/// the sign of the area (in the plane, where all third coordinates are zero) or of the volume that is
-/// largest among those spanned by the first point, the one furthest from it, and others.
-fn is_mirrored(one: &[[f64; 3]], other: &[[f64; 3]]) -> bool {
-    let greatest = |value: &dyn Fn(usize) -> f64| {
-        (0..one.len()).max_by(|&i, &j| value(i).abs().total_cmp(&value(j).abs()))
-    };
-    let from_first = |figure: &[[f64; 3]], i: usize| minus(figure[i], figure[0]);
-    let size = |i: usize| dot(from_first(one, i), from_first(one, i));
-    let Some(far) = greatest(&size) else {
-        return false;
-    };
-    let normal =
-        |figure: &[[f64; 3]], i: usize| cross(from_first(figure, far), from_first(figure, i));
-    let area = |i: usize| dot(normal(one, i), normal(one, i));
-    let Some(aside) = greatest(&area) else {
-        return false;
-    };
-    let is_flat = |figure: &[[f64; 3]]| figure.iter().all(|p| p[2] == 0.0);
-    if is_flat(one) && is_flat(other) {
-        return normal(one, aside)[2] * normal(other, aside)[2] < 0.0;
-    }
-    let volume = |figure: &[[f64; 3]], i: usize| dot(normal(figure, aside), from_first(figure, i));
-    let Some(above) = greatest(&|i| volume(one, i)) else {
-        return false;
-    };
-    volume(one, above) * volume(other, above) < 0.0
-}
-
 /// Classes of figures that are congruent up to reflection: for each figure the number of its
 /// class, counted from 0 in order of first occurrence.
 ///
@@ -153,20 +94,6 @@ fn squared_distance(a: &[f64; 3], b: &[f64; 3]) -> f64 {
 mod tests {
     use super::*;
     use proptest::prelude::*;
-
-    #[test]
-    fn tells_mirror_images_from_moved_figures() {
-        let one = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [0.5, 1.0, 0.0]];
-        let turned = one.each(|[x, y, z]| [-y, x, z]);
-        let mirrored = one.each(|[x, y, z]| [x, -y, z]);
-        assert!(is_mirrored(&one, &mirrored) && !is_mirrored(&one, &turned));
-        let apex = |figure: [[f64; 3]; 3], z| [&figure[..], &[[0.2, 0.3, z]]].concat();
-        let (one, other) = (apex(one, 1.0), apex(one, -1.0));
-        assert!(is_mirrored(&one, &other) && !is_mirrored(&one, &one));
-        let solutions = observed_solutions(vec![one.clone(), other, one], 1e-9);
-        let mirrors: Vec<Option<usize>> = solutions.iter().map(|s| s.mirror_of).collect();
-        assert_eq!(mirrors, [None, Some(0), Some(1)]);
-    }
 
     proptest! {
         /// The quick test never parts what the slow one joins.

@@ -9,8 +9,10 @@ mod control;
 mod ends;
 mod events;
 mod first;
+mod flat;
 #[doc(hidden)]
 pub mod flexible;
+mod float;
 #[doc(hidden)]
 pub mod full;
 mod options;
@@ -26,7 +28,7 @@ mod witness;
 pub use certified::prove_figure;
 pub use certified::{FigureBox, FiguresSeen, Fold, Relation, Sample, Trace, TubePart};
 pub use choice::{prove, solve_in_best_space, trace_path};
-pub use congruence::{congruence_classes, observed_solutions};
+pub use congruence::congruence_classes;
 pub use control::{Control, Limit, Progress};
 pub use ends::{Away, EndKind, PathEnd};
 pub use first::{First, first};

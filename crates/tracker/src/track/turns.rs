@@ -10,11 +10,11 @@ use super::events::TimeAlong;
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Turns {
     /// The sign that was certain first: whether t rises.
-    first: Option<bool>,
+    pub first: Option<bool>,
     /// The sign that was certain last.
     rising: Option<bool>,
     /// Changes so far.
-    count: usize,
+    pub count: usize,
     /// Whether the sign has not been certain since it was certain last.
     is_open: bool,
     /// Whether it was not certain for some stretch, and the same before and after.
@@ -37,19 +37,9 @@ pub enum Stretch {
 const MAX_DEPTH: usize = 40;
 
 impl Turns {
-    /// Changes so far.
-    pub fn count(&self) -> usize {
-        self.count
-    }
-
     /// Whether it is certain that there were no others, if none was counted.
     pub fn is_certain(&self) -> bool {
         !self.may_hide
-    }
-
-    /// Whether t rose where that was certain first.
-    pub fn first(&self) -> Option<bool> {
-        self.first
     }
 
     /// Whether it is certain all along that t rises, or that it falls.
@@ -165,7 +155,7 @@ mod tests {
                     });
                 }
                 assert_eq!(
-                    (turns.count(), turns.first(), turns.rising),
+                    (turns.count, turns.first, turns.rising),
                     (1, Some(false), Some(true))
                 );
                 assert!(
@@ -201,7 +191,7 @@ mod tests {
             let time = TimeAlong::new(&[0.0, 0.01, 0.0, 1.0 / 3.0, 0.0, 0.0], 1.0, 0.0, band);
             let mut turns = Turns::default();
             turns.follow(&time, (-1.0, 1.0), |_| {});
-            (turns.count(), turns.is_certain())
+            (turns.count, turns.is_certain())
         };
         assert_eq!((slope(0.02), slope(0.001)), ((0, false), (0, true)));
     }
@@ -213,6 +203,6 @@ mod tests {
         turns.follow(&time, (-1.0, 1.0), |seen| {
             assert!(matches!(seen, Stretch::Same(_)))
         });
-        assert_eq!((turns.count(), turns.rising), (0, Some(true)));
+        assert_eq!((turns.count, turns.rising), (0, Some(true)));
     }
 }

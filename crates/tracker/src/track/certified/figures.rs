@@ -5,6 +5,7 @@ use super::reasons::undecided;
 use super::solution::{Same, SolutionProver};
 use crate::interval::Interval;
 use crate::system::Homotopy;
+use crate::track::Solution;
 use crate::track::arc::Figure;
 use crate::track::full::{Equations, InverseMaker};
 
@@ -52,6 +53,35 @@ impl FigureBox {
         }
     }
 
+    /// A figure in floats, taken for the same as others that are as near as this part of its size.
+    pub fn about(figure: &[f64], part: f64) -> Self {
+        let size = figure.iter().fold(0.0, |max: f64, x| max.max(x.abs()));
+        FigureBox {
+            figure: Figure {
+                centre: figure.to_vec(),
+                low: vec![0.0; figure.len()],
+                radius: vec![0.5 * part * size; figure.len()],
+            },
+            alone_within: 1.5 * part * size,
+        }
+    }
+
+    /// As a solution with its class, and the first whose mirror image it is.
+    pub fn solution(
+        &self,
+        homotopy: &Homotopy,
+        (class, mirror_of): (usize, Option<usize>),
+    ) -> Solution {
+        let points = self.points(homotopy);
+        let objects = self.objects(homotopy, &points);
+        Solution {
+            auxiliary: self.auxiliary(homotopy),
+            mirror_of,
+            is_degenerate: self.alone_within == 0.0,
+            ..Solution::located(points, objects, class)
+        }
+    }
+
     /// Whether two boxes of the same equations hold the same figure up to congruence: proved by one's lying where
     /// the other's figure is alone, or by their being disjoint, with all signs of the gauge.
     pub fn relation(&self, other: &FigureBox, homotopy: &Homotopy) -> Relation {
@@ -65,7 +95,7 @@ impl FigureBox {
             Same::No => match is_congruent(homotopy, self, other) {
                 Congruence::Yes { .. } => Relation::Congruent,
                 Congruence::No => Relation::Different,
-                Congruence::Unknown | Congruence::Reversed => Relation::Unknown,
+                Congruence::Unknown | Congruence::Reversed { .. } => Relation::Unknown,
             },
         }
     }

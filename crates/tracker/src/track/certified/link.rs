@@ -148,6 +148,22 @@ impl<const N: usize, Y: Frame> Tube<N, Y> {
         }
     }
 
+    /// Makes a box around the exit's middle, which has this extent from ẑ, of so large a radius in |·|_u: the path's point in
+    /// the cross-section at `exit_at` is proved to be that near. `None`: either reaches out of the tube.
+    #[inline(always)]
+    pub fn hold_exit(&mut self, extent: f64, radius: f64) -> Option<()> {
+        let r = self.proof.r;
+        if !(extent < r && radius < r) {
+            return None;
+        }
+        let n = self.weights.len() - 1;
+        for (out, u) in self.exit.radius[..n].iter_mut().zip(self.weights.iter()) {
+            *out = round_up(radius * u, 1);
+        }
+        self.exit_between = (self.exit_at, self.exit_at);
+        Some(())
+    }
+
     /// Proves that a point of H⁻¹(0) known to lie in `ball` is the path's point in one of this
     /// tube's cross-sections, and encloses its parameter. `None`: it could not be proved.
     ///

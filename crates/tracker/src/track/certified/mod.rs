@@ -24,6 +24,7 @@ pub(in crate::track) mod tracker;
 mod validation;
 
 pub use figures::{FigureBox, FiguresSeen, Relation, prove_figure};
+pub(in crate::track) use ledger::{Congruence, classes, is_congruent};
 pub use solution::Same;
 pub use trace::{Fold, Sample, Trace, TubePart};
 

@@ -219,7 +219,11 @@ impl FigureBox {
 
     /// Whether the other box holds the same solution, after changing the sign of this one's
     /// entries where `mirror` says so.
-    pub(super) fn is_same(&self, other: &FigureBox, mirror: impl Fn(usize) -> bool) -> Same {
+    pub(in crate::track) fn is_same(
+        &self,
+        other: &FigureBox,
+        mirror: impl Fn(usize) -> bool,
+    ) -> Same {
         let (one, two) = (&self.figure, &other.figure);
         let (mut inside, mut apart) = (true, false);
         for i in 0..one.centre.len() {

@@ -31,7 +31,7 @@ use crate::track::{
 };
 use arc::Arc;
 use creep::Creep;
-use crossing::{Beyond, Crossing};
+use crossing::{Beyond, Crossing, TRIALS};
 use extension::Extension;
 use open::{CameTo, Halt};
 use pace::Pace;
@@ -83,7 +83,7 @@ pub fn track<const N: usize, T: Test<N>>(
     };
     let checked = match status {
         Status::Closed => tracker.ledger.check_closed(homotopy),
-        Status::Open(_) => tracker.ledger.check_open(homotopy),
+        Status::Open(_) => tracker.ledger.lengths_are_positive(homotopy),
         Status::Stopped(_) => Ok(()),
     };
     let of_all = |stop: Stop| {
@@ -267,7 +267,7 @@ impl<'a, const N: usize, T: Test<N>> Tracker<'a, N, T> {
             } else {
                 f64::NAN
             };
-            let known = self.ledger.solutions_so_far();
+            let known = self.ledger.found().len();
             match self.step(self.now.exit_at + reach, limit) {
                 Ok(is_done) => {
                     self.steps += 1;
@@ -288,8 +288,9 @@ impl<'a, const N: usize, T: Test<N>> Tracker<'a, N, T> {
                     steps_ahead.accept(h);
                     limit = (2.0 * limit).min(max_h);
                     self.account_for_precision();
-                    if self.crossing.is_some()
-                        && self.is_at_crossing()
+                    let (homotopy, local) = (&self.homotopy, &self.now.local);
+                    if let Some(crossing) = &mut self.crossing
+                        && TRIALS.is_due(homotopy, local, &mut crossing.failed)
                         && self.cross(options, control)
                     {
                         steps_ahead = StepControl::new(&self.equations);
@@ -333,7 +334,7 @@ impl<'a, const N: usize, T: Test<N>> Tracker<'a, N, T> {
             let progress = Progress {
                 t: self.now.local.z[0][self.equations.m],
                 steps: self.steps,
-                solutions: self.ledger.solutions_so_far(),
+                solutions: self.ledger.found().len(),
                 length: self.ledger.length,
             };
             if control.is_cancelled(progress) {
@@ -407,7 +408,7 @@ impl<'a, const N: usize, T: Test<N>> Tracker<'a, N, T> {
     fn begin(&mut self, start: &Figure) {
         self.equations.set_rights(&self.homotopy);
         self.ledger.begin(&self.homotopy);
-        if self.extension.is_on() {
+        if self.extension.on {
             self.test.set_extended(false);
         }
         self.extension = Extension::default();

@@ -60,7 +60,7 @@ impl Extended {
         equations: &Equations,
         (z, low): (&[f64], &[f64]),
         out: &mut Vector,
-        mut error: Option<&mut Vector>,
+        error: Option<&mut Vector>,
     ) {
         let m = equations.m;
         let t = DoubleDouble {
@@ -68,7 +68,7 @@ impl Extended {
             lo: low[m],
         };
         let size_of_t = t.size();
-        for e in 0..m {
+        residual(equations, (z, low), (out, error), |e| {
             let mut length = DoubleDouble::default();
             let (mut size, mut radius) = (0.0, 0.0);
             for (coefficient, r) in self.half_squares[e].iter().rev() {
@@ -76,13 +76,8 @@ impl Extended {
                 size = size * size_of_t + coefficient.size();
                 radius = radius * size_of_t + r;
             }
-            let (f, bound) = equation(equations, (z, low), e, length, size, radius);
-            out[e] = f;
-            if let Some(error) = &mut error {
-                error[e] = bound;
-            }
-        }
-        refuse_overlap((z, low), error);
+            (length, size, radius)
+        })
     }
 
     /// F(z) with the target lengths, those of t = 1, whatever z has for t, rounded to floats, and if wanted how
@@ -90,19 +85,14 @@ impl Extended {
     pub fn residual_at_target(
         &self,
         equations: &Equations,
-        (z, low): (&[f64], &[f64]),
+        z: (&[f64], &[f64]),
         out: &mut Vector,
-        mut error: Option<&mut Vector>,
+        error: Option<&mut Vector>,
     ) {
-        for e in 0..equations.m {
+        residual(equations, z, (out, error), |e| {
             let (length, radius) = self.targets[e];
-            let (f, bound) = equation(equations, (z, low), e, length, length.size(), radius);
-            out[e] = f;
-            if let Some(error) = &mut error {
-                error[e] = bound;
-            }
-        }
-        refuse_overlap((z, low), error);
+            (length, length.size(), radius)
+        })
     }
 }
 
@@ -122,9 +112,23 @@ impl Extended {
     }
 }
 
-/// The bounds hold for double-doubles: where the low word is not below half a digit of the high one
+/// F(z) rounded to floats, and if wanted how far the exact value may be from that: `right` tells what [`equation`] is to know
+/// of a right-hand side. The bounds hold for double-doubles: where the low word is not below half a digit of the high one
 /// nothing is known.
-fn refuse_overlap((z, low): (&[f64], &[f64]), error: Option<&mut Vector>) {
+#[inline(always)]
+fn residual(
+    equations: &Equations,
+    (z, low): (&[f64], &[f64]),
+    (out, mut error): (&mut Vector, Option<&mut Vector>),
+    right: impl Fn(usize) -> (DoubleDouble, f64, f64),
+) {
+    for e in 0..equations.m {
+        let (f, bound) = equation(equations, (z, low), e, right(e));
+        out[e] = f;
+        if let Some(error) = &mut error {
+            error[e] = bound;
+        }
+    }
     if let Some(error) = error
         && z.iter().zip(low).any(|(z, low)| z + low != *z)
     {
@@ -153,9 +157,7 @@ fn equation(
     equations: &Equations,
     z: (&[f64], &[f64]),
     e: usize,
-    length: DoubleDouble,
-    size: f64,
-    radius: f64,
+    (length, size, radius): (DoubleDouble, f64, f64),
 ) -> (f64, f64) {
     let ends = equations.ends.iter();
     let squared = ends.fold(DoubleDouble::default(), |sum, ends| {

@@ -24,7 +24,7 @@ pub(in crate::track) use local::MAX_ORDER;
 pub use local::{DEGREE, Local, ORDER, condition, dot};
 pub use preconditioner::{InverseMaker, Preconditioner};
 pub use refine::{CrossingRoom, RefineError};
-pub use start::{LARGEST_TANGENT, first_normal, path_length};
+pub use start::{LARGEST_TANGENT, first_normal, path_length, sketch};
 #[cfg(test)]
 pub use tail::Part;
 pub use tail::{Forms, Tail};

@@ -2,9 +2,19 @@
 
 use super::{Equations, Local, ORDER, Preconditioner, dot};
 use crate::linalg::{Singular, Vector};
+use crate::system::Homotopy;
 
 /// A tangent larger than this in the coordinate that is held comes from rounding, not from the problem.
 pub const LARGEST_TANGENT: f64 = 1e12;
+
+/// The sketch, with t = 0.
+pub fn sketch(homotopy: &Homotopy, equations: &Equations) -> Vector {
+    let mut z = equations.vector();
+    for (z, exact) in z.iter_mut().zip(homotopy.sketch_of_unknowns()) {
+        *z = exact.mid();
+    }
+    z
+}
 
 /// Finds the path's unit tangent at `local.z[0]` and sets it as normal: with t rising, or falling
 /// where `reverse` says so. Where t is stationary, the other way is the opposite direction still.

@@ -6,4 +6,5 @@
 
 pub mod certified;
 pub mod float;
+mod plans;
 pub mod structure;

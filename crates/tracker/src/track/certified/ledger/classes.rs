@@ -5,71 +5,67 @@ use crate::interval::rounding::round_up;
 use crate::system::Homotopy;
 use crate::track::certified::figures::FigureBox;
 use crate::track::certified::solution::Same;
-use crate::track::{Solution, Stop, StopKind, relative_width};
+use crate::track::{Solution, Stop, StopKind};
 
 impl Ledger {
     /// The solutions with their classes; the reason, if a claim about them could not be proved.
     pub fn solutions(&self, homotopy: &Homotopy) -> Result<Vec<Solution>, (Stop, Vec<Solution>)> {
         let mut reason = None;
-        let mut classes: Vec<usize> = Vec::new();
-        let mut mirrors: Vec<Option<usize>> = Vec::new();
-        for (k, found) in self.found.iter().enumerate() {
-            let (mut class, mut mirror) = (None, None);
-            for (j, other) in self.found[..k].iter().enumerate() {
-                match is_congruent(homotopy, found, other) {
-                    Congruence::Yes { mirrored } => {
-                        class = Some(classes[j]);
-                        mirror = mirror.or(mirrored.then_some(j));
-                    }
-                    Congruence::No => {}
-                    undecided => {
-                        let help = match undecided {
-                            Congruence::Reversed => {
-                                "they may differ in nothing but the direction of a line or plane of its own, \
-                                 which are one figure; name points of it instead"
-                            }
-                            _ => "another reference may help",
-                        };
-                        reason.get_or_insert(format!(
-                            "it could not be decided whether solutions {} and {}, known up to {:.1e}, \
-                             are congruent; {help}",
-                            j + 1,
-                            k + 1,
-                            found.greatest_radius().max(other.greatest_radius())
-                                * homotopy.unit
-                        ));
-                    }
+        let relation = |one: &FigureBox, other: &FigureBox| is_congruent(homotopy, one, other);
+        let classes = classes(&self.found, relation, |j, k, undecided| {
+            let help = match undecided {
+                Congruence::Reversed { .. } => {
+                    "they may differ in nothing but the direction of a line or plane of its own, \
+                     which are one figure; name points of it instead"
                 }
-            }
-            mirrors.push(mirror);
-            classes.push(class.unwrap_or_else(|| classes.iter().max().map_or(0, |c| c + 1)));
-        }
-        let solutions = self
-            .found
-            .iter()
-            .zip(&self.places)
-            .zip(classes.into_iter().zip(mirrors))
-            .map(|((found, &place), (class, mirror_of))| {
-                let points = found.points(homotopy);
-                let objects = found.objects(homotopy, &points);
-                let width = relative_width(&points, &objects);
-                Solution {
-                    objects,
-                    auxiliary: found.auxiliary(homotopy),
-                    points,
-                    class,
-                    width,
-                    place: Some(place),
-                    mirror_of,
-                    is_degenerate: found.alone_within == 0.0,
-                }
-            })
-            .collect();
+                _ => "another reference may help",
+            };
+            let (found, other) = (&self.found[k], &self.found[j]);
+            reason.get_or_insert(format!(
+                "it could not be decided whether solutions {} and {}, known up to {:.1e}, \
+                 are congruent; {help}",
+                j + 1,
+                k + 1,
+                found.greatest_radius().max(other.greatest_radius()) * homotopy.unit
+            ));
+        });
+        let all = self.found.iter().zip(&self.places).zip(classes);
+        let solutions = all.map(|((found, &place), class)| Solution {
+            place: Some(place),
+            ..found.solution(homotopy, class)
+        });
+        let solutions = solutions.collect();
         match reason {
             None => Ok(solutions),
             Some(reason) => Err((Stop::new(StopKind::Undecided, reason), solutions)),
         }
     }
+}
+
+/// The class of each of some figures, counted from 0 in the order in which they first occur, and the first before it whose
+/// mirror image it is. Pairs of which `relation` does not tell whether they are congruent are `undecided`.
+pub fn classes(
+    figures: &[FigureBox],
+    relation: impl Fn(&FigureBox, &FigureBox) -> Congruence,
+    mut undecided: impl FnMut(usize, usize, Congruence),
+) -> Vec<(usize, Option<usize>)> {
+    let mut classes: Vec<(usize, Option<usize>)> = Vec::new();
+    for (k, figure) in figures.iter().enumerate() {
+        let (mut class, mut mirror) = (None, None);
+        for (j, other) in figures[..k].iter().enumerate() {
+            match relation(figure, other) {
+                Congruence::Yes { mirrored } => {
+                    class = Some(classes[j].0);
+                    mirror = mirror.or(mirrored.then_some(j));
+                }
+                Congruence::No => {}
+                other => undecided(j, k, other),
+            }
+        }
+        let next = classes.iter().map(|(class, _)| class + 1).max();
+        classes.push((class.unwrap_or(next.unwrap_or(0)), mirror));
+    }
+    classes
 }
 
 /// What is proved of two different solutions.
@@ -81,8 +77,9 @@ pub enum Congruence {
     No,
     /// Neither could be proved.
     Unknown,
-    /// Neither could be proved, as they may be one figure in which lines or planes of their own run the other way.
-    Reversed,
+    /// Neither could be proved, as they may be one figure, or its mirror image, in which lines or planes of their own run
+    /// the other way.
+    Reversed { mirrored: bool },
 }
 
 /// Whether two different solutions are congruent up to reflection.
@@ -117,7 +114,8 @@ pub fn is_congruent(homotopy: &Homotopy, one: &FigureBox, other: &FigureBox) -> 
     for &last in last {
         turned[homotopy.dimension - 1] = last;
         let reversed = turned.iter().filter(|&&turned| turned).count();
-        if reversed % 2 == 1 && !homotopy.tail.mirrors {
+        let mirrored = reversed % 2 == 1;
+        if mirrored && !homotopy.tail.mirrors {
             continue;
         }
         let flips = |i: usize| {
@@ -140,16 +138,12 @@ pub fn is_congruent(homotopy: &Homotopy, one: &FigureBox, other: &FigureBox) -> 
             match one.is_same(other, |i| flips(i) ^ twin[i]) {
                 Same::No => {}
                 Same::Unknown => return Congruence::Unknown,
-                Same::Yes => {
-                    return Congruence::Yes {
-                        mirrored: reversed % 2 == 1,
-                    };
-                }
+                Same::Yes => return Congruence::Yes { mirrored },
             }
         }
         let apart = |i: usize, reversed: bool| one.differs(other, i, flips(i) ^ reversed);
         if homotopy.may_be_reversed(twins, apart) {
-            return Congruence::Reversed;
+            return Congruence::Reversed { mirrored };
         }
     }
     Congruence::No

@@ -22,13 +22,8 @@ impl Ledger {
         self.lengths_are_positive(homotopy)
     }
 
-    /// What remains to be proved of an arc.
-    pub fn check_open(&self, homotopy: &Homotopy) -> Result<(), Stop> {
-        self.lengths_are_positive(homotopy)
-    }
-
-    /// Claim 3: a_i(t) > 0 on the whole range of t.
-    fn lengths_are_positive(&self, homotopy: &Homotopy) -> Result<(), Stop> {
+    /// What remains to be proved of an arc, claim 3: a_i(t) > 0 on the whole range of t.
+    pub fn lengths_are_positive(&self, homotopy: &Homotopy) -> Result<(), Stop> {
         let range = hull(self.t_range.0, self.t_range.1);
         for (index, length) in homotopy.lengths.iter().enumerate() {
             if length.enclose(range).inf() > 0.0 {

@@ -17,7 +17,7 @@ use crate::track::events::{Crossing, TimeAlong};
 use crate::track::full::{Equations, InverseMaker, path_length};
 use crate::track::turns::{Stretch, Turns};
 
-pub use classes::{Congruence, is_congruent};
+pub use classes::{Congruence, classes, is_congruent};
 
 /// The account of a chain of linked tubes.
 #[derive(Debug)]
@@ -28,17 +28,19 @@ pub struct Ledger {
     positive: Vec<usize>,
     /// The vectors that must not vanish: see [`Homotopy::nonzero_vectors`].
     nonzero: Vec<Vec<[usize; 2]>>,
-    prover: SolutionProver,
+    /// Proves boxes around solutions.
+    pub prover: SolutionProver,
     found: Vec<FigureBox>,
     /// Where on the path each of them is.
     places: Vec<Place>,
-    turns: Turns,
+    /// Where t turns.
+    pub turns: Turns,
     /// The stretch of the last tube that belongs to the path, and the path's length up to it.
     pub last_stretch: (f64, f64, f64),
     /// Work space.
     crossings: Vec<Crossing>,
-    /// See the method of that name.
-    last_crossing: f64,
+    /// The parameter before which the solution found last is, in the tube entered last.
+    pub last_crossing: f64,
     scratch: Vector,
     ball: Ball,
     /// The length of the path, in floats.
@@ -87,17 +89,6 @@ impl Ledger {
         self.t_range = (f64::INFINITY, f64::NEG_INFINITY);
     }
 
-    /// Proves a box around the solution near a point, beside the account; in extended precision if asked for.
-    pub fn prove_at_end(
-        &mut self,
-        equations: &Equations,
-        inverter: &mut InverseMaker,
-        near: &[f64],
-        extended: bool,
-    ) -> Result<&FigureBox, Doubt> {
-        self.prover.prove(equations, inverter, near, extended)
-    }
-
     /// Where the account stands.
     pub fn mark(&self) -> Mark {
         Mark {
@@ -121,11 +112,6 @@ impl Ledger {
         (self.length, self.t_range) = (mark.length, mark.t_range);
     }
 
-    /// Whether t is proved to rise all along, or to fall.
-    pub fn is_steady(&self, rising: bool) -> bool {
-        self.turns.is_steady(rising)
-    }
-
     /// Takes over the account of a piece of path along which t rises throughout, or falls, kept for other equations
     /// of the same path, in which it passes flat figures: `flat` are those in these unknowns. If it fails nothing
     /// is changed.
@@ -137,7 +123,7 @@ impl Ledger {
     ) -> Result<(), String> {
         let known = self.found.len();
         self.turns.go_on(rising);
-        let (folds, is_certain) = (self.turns.count(), self.turns.is_certain());
+        let (folds, is_certain) = (self.turns.count, self.turns.is_certain());
         for (found, place) in flat.into_iter().zip(&piece.places) {
             let mut others = self.found.iter();
             if others.any(|other| found.is_same(other, |_| false) != Same::No) {
@@ -158,11 +144,6 @@ impl Ledger {
         Ok(())
     }
 
-    /// The parameter before which the solution found last is, in the tube entered last.
-    pub fn last_crossing(&self) -> f64 {
-        self.last_crossing
-    }
-
     /// Enters a linked tube between two parameters, where there is no solution.
     pub fn pass<const N: usize, Y: Frame>(
         &mut self,
@@ -181,11 +162,6 @@ impl Ledger {
     /// The solutions so far, in the order of the path.
     pub fn found(&self) -> &[FigureBox] {
         &self.found
-    }
-
-    /// The number of solutions so far.
-    pub fn solutions_so_far(&self) -> usize {
-        self.found.len()
     }
 
     /// Finds all solutions in a linked tube, from its entry to the parameter `to`, the path being followed to
@@ -318,7 +294,7 @@ impl Ledger {
         slopes: (f64, f64),
         known: usize,
     ) {
-        let before = self.turns.count();
+        let before = self.turns.count;
         let new = &mut self.places[known..];
         let mut passed = vec![0; new.len()];
         // From where the path is in this tube for certain, lest a fold be counted in two tubes.
@@ -334,7 +310,7 @@ impl Ledger {
                     later.for_each(|(_, passed)| *passed += 1);
                 }
             });
-        let first = self.turns.first();
+        let first = self.turns.first;
         // What is hidden in this tube counts for all solutions in it.
         let is_certain = was_certain && self.turns.is_certain();
         for (place, passed) in new.iter_mut().zip(passed) {

@@ -73,12 +73,7 @@ impl Arc {
         if self.is_complex {
             return self.enter_complex(joining, inverter, ledger);
         }
-        let Joining {
-            equations,
-            tube,
-            extended,
-            ..
-        } = *joining;
+        let tube = joining.tube;
         let time = tube.time();
         let from = tube.entry.0.max(-tube.proof.h);
         let to = match time.rise(from, tube.exit_at) {
@@ -88,7 +83,13 @@ impl Arc {
         };
         let before = ledger.mark();
         ledger
-            .enter(equations, inverter, tube, (to, to), extended)
+            .enter(
+                joining.equations,
+                inverter,
+                tube,
+                (to, to),
+                joining.extended,
+            )
             .map_err(Rejection::Undecided)?;
         // The chain up to here has t < 1, or it would have ended.
         let Some(found) = ledger.found().last() else {
@@ -100,7 +101,7 @@ impl Arc {
             return Ok(false);
         };
         // It may be a little behind the exit.
-        let at = ledger.last_crossing();
+        let at = ledger.last_crossing;
         if let Rise::Until(_) = time.rise(from, at) {
             ledger.return_to(before);
             return Err(Rejection::Undecided(Doubt::Time(time.undecided(from, at))));
@@ -123,19 +124,13 @@ impl Arc {
         inverter: &mut InverseMaker,
         ledger: &mut Ledger,
     ) -> Result<bool, Rejection> {
-        let Joining {
-            equations,
-            tube,
-            is_first,
-            extended,
-            ..
-        } = *joining;
+        let tube = joining.tube;
         let time = tube.time();
         let (from, h) = (tube.entry.0.max(-tube.proof.h), tube.proof.h);
         let doubt = || Rejection::Undecided(Doubt::Time(time.undecided(from, h)));
         // Of t − 1; the figure at the start has t = 0.
         let ((low, high), _) = time.bounds(tube.exit_at, tube.exit_at);
-        if is_first && (low <= -1.0 || low.is_nan()) {
+        if joining.is_first && (low <= -1.0 || low.is_nan()) {
             return Err(doubt());
         }
         if high < 0.0 {
@@ -150,7 +145,13 @@ impl Arc {
         }
         // The chain has t < 1 up to the entry, and beyond it t rises: it is 1 once.
         ledger
-            .enter_crossing(equations, inverter, tube, (from, h), extended)
+            .enter_crossing(
+                joining.equations,
+                inverter,
+                tube,
+                (from, h),
+                joining.extended,
+            )
             .map_err(Rejection::Undecided)?;
         let found = ledger.found().last().expect("it was just entered");
         self.end = Some(ArcEnd::Reached(found.figure.clone()));
@@ -164,17 +165,11 @@ impl Arc {
         ledger: &mut Ledger,
         (from, until): (f64, f64),
     ) -> Result<bool, Rejection> {
-        let Joining {
-            equations,
-            homotopy,
-            tube,
-            is_first,
-            ..
-        } = *joining;
+        let (equations, tube) = (joining.equations, joining.tube);
         let time = tube.time();
         let doubt = || Rejection::Undecided(Doubt::Turn(time.undecided(until, tube.exit_at)));
         // That dt/ds > 0 at the entry is known of all tubes but the first.
-        if is_first && until <= tube.entry.1 {
+        if joining.is_first && until <= tube.entry.1 {
             return Err(doubt());
         }
         let at = time.turning_point(from).ok_or_else(doubt)?;
@@ -182,7 +177,9 @@ impl Arc {
         tube.local.at(at, &mut x);
         tube.local.slope(at, &mut v);
         let normal = &tube.local.normal;
-        let found = self.prover.prove(equations, homotopy, (&x, &v), normal);
+        let found = self
+            .prover
+            .prove(equations, joining.homotopy, (&x, &v), normal);
         let found = found.ok_or_else(doubt)?;
         let mut ball = Ball::new(equations);
         ball.hold(&found.figure, found.t);
@@ -263,9 +260,8 @@ where
                 tracker.equations.extend(&tracker.homotopy);
             }
             let (equations, inverter) = (&tracker.equations, &mut tracker.inverter);
-            let proved = tracker
-                .ledger
-                .prove_at_end(equations, inverter, &guess, extended);
+            let prover = &mut tracker.ledger.prover;
+            let proved = prover.prove(equations, inverter, &guess, extended);
             match proved {
                 Ok(found) => return Ok((found.figure.clone(), found.alone_within)),
                 Err(doubt) if extended => return Err(undecided(doubt, false, &tracker.homotopy)),

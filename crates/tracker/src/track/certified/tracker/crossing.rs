@@ -13,19 +13,18 @@ use crate::interval::{Interval, point};
 use crate::system::{Heights, Homotopy};
 use crate::track::certified::figures::FigureBox;
 use crate::track::certified::link::{Ball, Frame, Tube};
+use crate::track::flat::Trials;
 use crate::track::full::{Local, first_normal};
 use crate::track::{Control, Options, Trace, Witness};
 use std::borrow::Cow;
 
-/// Crossings are tried where t is nearer to 1 than this.
-const NEAR: f64 = 0.25;
-/// Crossings are not tried where t is nearer to 1 than this: there is no room left for the links.
-const NEAREST: f64 = 1e-7;
-/// After a trial in vain the next is made at this part of the distance.
-const NEARER: f64 = 0.6;
-/// The path is taken to run into a flat figure where heights would be so small at t = 1, beside what they are, if they
-/// went on as they do.
-const VANISHING: f64 = 0.5;
+/// When crossings are tried: not where there is no room left for the links.
+pub(super) const TRIALS: Trials = Trials {
+    near: 0.25,
+    nearest: 1e-7,
+    nearer: 0.6,
+    vanishing: 0.5,
+};
 /// The piece in the other equations ends as far behind t = 1 as it begins before it, or so many times farther
 /// where the way back is not proved before.
 const FARTHEST: f64 = 4.0;
@@ -40,8 +39,10 @@ const FAULT: &str =
 #[derive(Debug)]
 pub(super) struct Crossing {
     heights: Heights,
-    /// How far from t = 1 the last trial was that failed on this approach, and why.
-    failed: Option<(f64, String)>,
+    /// How far from t = 1 the last trial was that failed on this approach,
+    pub failed: Option<f64>,
+    /// and why.
+    why: String,
     /// How many were passed.
     passed: usize,
     /// Tubes of the pieces.
@@ -76,6 +77,7 @@ impl Crossing {
         Some(Crossing {
             heights,
             failed: None,
+            why: String::new(),
             passed: 0,
             tubes: 0,
         })
@@ -83,7 +85,7 @@ impl Crossing {
 
     /// Why the last crossing could not be proved, if the path did not get away from there.
     pub fn failure(&self) -> Option<&str> {
-        self.failed.as_ref().map(|(_, why)| why.as_str())
+        self.failed.map(|_| self.why.as_str())
     }
 
     /// Counts those of the way from the sketch in the other direction too.
@@ -130,36 +132,6 @@ fn direction<const N: usize, Y: Frame>(tube: &Tube<N, Y>, (from, to): (f64, f64)
 }
 
 impl<const N: usize, T: Test<N>> Tracker<'_, N, T> {
-    /// Whether a crossing is to be tried at the last tube's exit: in floats.
-    pub(super) fn is_at_crossing(&mut self) -> bool {
-        let Some(crossing) = &mut self.crossing else {
-            return false;
-        };
-        let (m, local) = (self.equations.m, &self.now.local);
-        let left = 1.0 - local.z[0][m];
-        let slope = local.z[1][m];
-        if left.abs() > NEAR || left * slope <= 0.0 {
-            crossing.failed = None;
-            return false;
-        }
-        let is_due = match &crossing.failed {
-            Some((distance, _)) => left.abs() < NEARER * distance,
-            None => true,
-        };
-        if !is_due || left.abs() < NEAREST {
-            return false;
-        }
-        let (mut largest, mut remaining) = (0.0f64, 0.0f64);
-        for p in 0..self.homotopy.points {
-            if let Some(i) = self.homotopy.coordinate(p, 2) {
-                let (z, dz) = (local.z[0][i], local.z[1][i]);
-                largest = largest.max(z.abs());
-                remaining = remaining.max((z + dz * (left / slope)).abs());
-            }
-        }
-        remaining <= VANISHING * largest
-    }
-
     /// Follows the path through the flat figure ahead, if there is one, and comes back to these equations behind it, in a tube
     /// that is shown. If it cannot be proved all is as it was.
     pub(super) fn cross(&mut self, options: &Options, control: &mut Control) -> bool {
@@ -177,7 +149,7 @@ impl<const N: usize, T: Test<N>> Tracker<'_, N, T> {
         }
         match result {
             Ok(known) => self.show_tube(control, known, false),
-            Err(why) => crossing.failed = Some((left, why)),
+            Err(why) => (crossing.failed, crossing.why) = (Some(left), why),
         }
         self.crossing = Some(crossing);
         done
@@ -249,7 +221,7 @@ impl<const N: usize, T: Test<N>> Tracker<'_, N, T> {
                 let gone = piece.go_on(&options, max_h, &mut quiet);
                 gone.map_err(|halt| words(halt.stop.text))?;
             }
-            if !piece.ledger.is_steady(rising) {
+            if !piece.ledger.turns.is_steady(rising) {
                 return Err(words(
                     "it is not certain that t goes through 1 without turning back".to_owned(),
                 ));
@@ -264,7 +236,7 @@ impl<const N: usize, T: Test<N>> Tracker<'_, N, T> {
                 }
             }
         };
-        crossing.passed += piece.ledger.solutions_so_far();
+        crossing.passed += piece.ledger.found().len();
         crossing.tubes += piece.steps + 1;
         self.steps += piece.steps + 1;
         self.rejected += piece.rejected;
@@ -306,7 +278,7 @@ impl<const N: usize, T: Test<N>> Tracker<'_, N, T> {
         let given = |found: &FigureBox| self.flat_solution(found, heights);
         let flat: Vec<FigureBox> = piece.ledger.found().iter().map(given).collect();
         self.ledger.pass_flat(&piece.ledger, flat, rising)?;
-        let known = self.ledger.solutions_so_far();
+        let known = self.ledger.found().len();
         // The tube around it comes in the next one's place, as one around the sketch.
         let mut normal = at_ball.normal.clone();
         std::mem::swap(&mut self.now, &mut self.next);

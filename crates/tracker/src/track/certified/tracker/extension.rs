@@ -18,7 +18,8 @@ const MAX_PATIENCE: usize = 64;
 #[derive(Debug, Default)]
 pub(super) struct Extension {
     stretches: Vec<Stretch>,
-    on: bool,
+    /// Whether it is on.
+    pub on: bool,
     /// Tubes since, in a row, for which 53 bits would have done.
     needless: usize,
     /// Whether the point of the tube before the last one was found in extended precision.
@@ -36,11 +37,6 @@ struct Stretch {
 }
 
 impl Extension {
-    /// Whether it is on.
-    pub fn is_on(&self) -> bool {
-        self.on
-    }
-
     /// On, as 53 bits could not do something.
     fn switch_on(&mut self, why: &'static str) {
         self.on = true;

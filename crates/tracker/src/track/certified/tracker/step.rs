@@ -108,7 +108,7 @@ impl<const N: usize, T: Test<N>> Tracker<'_, N, T> {
 
     /// Takes the linked tube into account, the `first` one or the next. Tells whether the path ends in it.
     pub(super) fn enter(&mut self, first: bool) -> Result<bool, Rejection> {
-        let extended = self.extension.is_on();
+        let extended = self.extension.on;
         let tube = if first { &self.now } else { &self.next };
         if let Some(arc) = &mut self.arc {
             let joining = Joining {

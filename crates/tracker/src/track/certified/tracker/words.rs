@@ -54,7 +54,7 @@ impl<const N: usize, T: Test<N>> Tracker<'_, N, T> {
             "{}, at the smallest step, {:.1e}{}, {}{remark}",
             self.why(rejection, false, limit),
             reach * self.homotopy.unit,
-            precision(self.extension.is_on()),
+            precision(self.extension.on),
             self.place()
         );
         Halt {
@@ -74,7 +74,7 @@ impl<const N: usize, T: Test<N>> Tracker<'_, N, T> {
         let words = format!(
             "the path cannot be followed farther in reasonable time: the last {tubes} tubes together are {:.1e} long{}, {}{}",
             length * self.homotopy.unit,
-            precision(self.extension.is_on()),
+            precision(self.extension.on),
             self.place(),
             self.homotopy.remark_on_lengths(t)
         );
@@ -106,7 +106,7 @@ impl<const N: usize, T: Test<N>> Tracker<'_, N, T> {
     pub(super) fn stuck_at_sketch(&mut self, rejection: Rejection, limit: f64) -> Stop {
         let words = format!(
             "at the sketch{}, {}{}",
-            precision(self.extension.is_on()),
+            precision(self.extension.on),
             self.why(rejection, true, limit),
             self.condition()
         );
@@ -135,7 +135,7 @@ impl<const N: usize, T: Test<N>> Tracker<'_, N, T> {
                     unlinked("that one's end", &before.exit, direction, tube, unit)
                 }
             },
-            Rejection::Undecided(doubt) => undecided(doubt, self.extension.is_on(), &self.homotopy),
+            Rejection::Undecided(doubt) => undecided(doubt, self.extension.on, &self.homotopy),
         }
     }
 

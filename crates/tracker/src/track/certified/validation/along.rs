@@ -8,15 +8,6 @@ use super::*;
 /// How near points of the path are known that are compared to 1e-9.
 const NEAR: f64 = 1e-24;
 
-/// The sketch, with t = 0.
-pub fn sketch(homotopy: &Homotopy, equations: &Equations) -> Vector {
-    let mut z = equations.vector();
-    for (z, exact) in z.iter_mut().zip(homotopy.sketch_of_unknowns()) {
-        *z = exact.mid();
-    }
-    z
-}
-
 /// That point, its normal in the direction in which t rises. `None`: it is singular.
 pub fn at_sketch(
     homotopy: &Homotopy,

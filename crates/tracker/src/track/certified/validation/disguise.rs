@@ -1,5 +1,6 @@
 //! Distances written as other equations: the same path, tracked and proved through the tail.
 
+use super::precise::Case;
 use super::{Random, boxes_meet, effort, random_problem};
 use crate::constraint::{
     Entry, Equation, Form, Product, Role, Tail, Unknown, coordinate, difference, value,
@@ -169,17 +170,14 @@ impl Disguised {
     }
 }
 
-/// The problem and its homotopy, every other time in other words.
-pub fn every_other_disguised(
-    round: usize,
-    problem: Problem,
-    random: &mut Random,
-) -> Option<(Problem, Homotopy)> {
+/// The problem, every other time in other words.
+pub fn every_other_disguised(round: usize, problem: Problem, random: &mut Random) -> Option<Case> {
     if round % 4 < 2 {
         let homotopy = Homotopy::new(&problem).ok()?;
-        return Some((problem, homotopy));
+        return Some((problem, homotopy).into());
     }
-    Disguised::new(&problem, 0.7, random).with_homotopy()
+    let disguised = Disguised::new(&problem, 0.7, random);
+    disguised.with_homotopy().map(Case::from)
 }
 
 fn unknown(name: &str, role: Role, power: i32, flips: [bool; 3], sketch: Interval) -> Unknown {

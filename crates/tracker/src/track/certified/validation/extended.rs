@@ -2,7 +2,7 @@
 
 use super::precise::big::Big;
 use super::precise::full::{check_ball, check_point};
-use super::precise::{Figure, Ratios, ball_at};
+use super::precise::{Case, Figure, Ratios, ball_at};
 use super::*;
 use crate::places::Each as _;
 use crate::track::certified::tracker::Test;
@@ -103,9 +103,10 @@ struct Tally {
 }
 
 /// Whatever the low words are, what is proved of the tube around them is true.
-fn tubes(problem: &Problem, random: &mut Random, tally: &mut Tally) {
-    let homotopy = Homotopy::new(problem).unwrap();
-    let figure = Figure::new(problem, &homotopy);
+fn tubes(problem: Problem, random: &mut Random, tally: &mut Tally) {
+    let Case {
+        homotopy, figure, ..
+    } = Case::new(problem);
     let mut workshop = Workshop::new(&homotopy, f64::INFINITY);
     let Some(good) = around_sketch(&homotopy, &mut workshop) else {
         return;
@@ -138,7 +139,7 @@ fn tubes(problem: &Problem, random: &mut Random, tally: &mut Tally) {
             _ => (0..n).for_each(|i| local.low[i] += change[i]),
         }
         let max_h = 10f64.powf(random.between(-10.0, -3.0));
-        let weights = workshop.test.weights_mut().clone();
+        let weights = workshop.test.next_weights.clone();
         if !workshop.prove_as_it_is(&mut tube, weights, max_h) {
             tally.refused += 1;
             continue;
@@ -179,7 +180,7 @@ fn tubes_are_true_whatever_the_low_words() {
     for round in 0..effort(4) {
         let (dimension, points) = (2 + round % 2, 4 + random.below(2));
         let problem = random_problem(&mut random, dimension, points, 0.3);
-        tubes(&problem, &mut random, &mut tally)
+        tubes(problem, &mut random, &mut tally)
     }
     println!("{tally:?}");
     assert!(
@@ -229,36 +230,40 @@ fn low_words_do_not_outlive_their_tubes() {
     }
 }
 
-/// What a tube claims at a few parameters: how near the claimed distances come.
-fn compare(figure: &Figure, tube: &Tube) -> (f64, f64) {
+/// What a short tube around a middle claims at a few parameters, if it is proved: how near the claimed distances come.
+fn proved(
+    figure: &Figure,
+    workshop: &mut Workshop,
+    tube: &mut Tube,
+    random: &mut Random,
+) -> Option<(f64, f64)> {
+    let max_h = 10f64.powf(random.between(-10.0, -4.0));
+    workshop.test.precision.extended = true;
+    let weights = workshop.test.next_weights.clone();
+    if !workshop.prove_as_it_is(tube, weights, max_h) {
+        return None;
+    }
     let (proof, mut ratios) = (&tube.proof, Ratios::default());
     for s in [-proof.h, -0.5 * proof.h, 0.0, 0.5 * proof.h, proof.h] {
         check_point(figure, tube, s, &mut ratios).expect("a regular point");
     }
-    (ratios.largest("distance"), ratios.largest("slope_distance"))
+    Some((ratios.largest("distance"), ratios.largest("slope_distance")))
 }
 
 /// Lengths known less well than they are: the middle is then off by as much as order 0 of F may be.
-fn blurred(problem: &Problem, random: &mut Random) -> Option<(f64, f64)> {
-    let homotopy = Homotopy::new(problem).unwrap();
-    let figure = Figure::new(problem, &homotopy);
-    let mut workshop = Workshop::new(&homotopy, f64::INFINITY);
-    workshop.equations.extend(&homotopy);
+fn blurred(case: &Case, random: &mut Random) -> Option<(f64, f64)> {
+    let (homotopy, figure) = (&case.homotopy, &case.figure);
+    let mut workshop = Workshop::new(homotopy, f64::INFINITY);
+    workshop.equations.extend(homotopy);
     let size = 10f64.powf(random.between(-22.0, -12.0));
     let extended = workshop.equations.in_extended_mut();
     extended.blur(|_| size * random.sign());
-    let mut tube = around_sketch(&homotopy, &mut workshop)?;
-    let max_h = 10f64.powf(random.between(-10.0, -4.0));
-    workshop.test.precision.extended = true;
-    let weights = workshop.test.weights_mut().clone();
-    if !workshop.prove_as_it_is(&mut tube, weights, max_h) {
-        return None;
-    }
-    let used = compare(&figure, &tube);
+    let mut tube = around_sketch(homotopy, &mut workshop)?;
+    let used = proved(figure, &mut workshop, &mut tube, random)?;
     let test = &mut workshop.test;
     if test.tighten_exit(&workshop.equations, &mut tube).is_some() {
         let ratios = &mut Ratios::default();
-        let (z, _) = check_point(&figure, &tube, tube.exit_at, ratios).expect("a regular point");
+        let (z, _) = check_point(figure, &tube, tube.exit_at, ratios).expect("a regular point");
         check_ball("exit", &z, &tube.exit, ratios);
     }
     Some(used)
@@ -266,11 +271,9 @@ fn blurred(problem: &Problem, random: &mut Random) -> Option<(f64, f64)> {
 
 /// Differences and slopes rounded as badly as the bounds allow for: orders k ≥ 1 of F vanish as computed,
 /// and do not.
-fn rough(problem: &Problem, random: &mut Random) -> Option<(f64, f64)> {
-    let homotopy = Homotopy::new(problem).unwrap();
-    let figure = Figure::new(problem, &homotopy);
-    let mut workshop = Workshop::new(&homotopy, f64::INFINITY);
-    let mut tube = around_sketch(&homotopy, &mut workshop)?;
+fn rough(case: &Case, random: &mut Random) -> Option<(f64, f64)> {
+    let mut workshop = Workshop::new(&case.homotopy, f64::INFINITY);
+    let mut tube = around_sketch(&case.homotopy, &mut workshop)?;
     let m = workshop.equations.m;
     let mut rounded = |x: &mut f64| *x *= 1.0 + 40.0 * f64::EPSILON * random.between(-1.0, 1.0);
     for e in 0..m {
@@ -279,13 +282,7 @@ fn rough(problem: &Problem, random: &mut Random) -> Option<(f64, f64)> {
         rounded(&mut tube.local.lengths.terms[1][e]);
     }
     tube.local.expand(&workshop.equations);
-    let max_h = 10f64.powf(random.between(-10.0, -4.0));
-    workshop.test.precision.extended = true;
-    let weights = workshop.test.weights_mut().clone();
-    if !workshop.prove_as_it_is(&mut tube, weights, max_h) {
-        return None;
-    }
-    Some(compare(&figure, &tube))
+    proved(&case.figure, &mut workshop, &mut tube, random)
 }
 
 #[test]
@@ -294,12 +291,9 @@ fn low_orders_hold_what_is_not_known_of_them() {
     let (mut most, mut proved) = ([(0.0f64, 0.0f64); 2], [0; 2]);
     for round in 0..effort(16) {
         let (dimension, points) = (2 + round % 2, 4 + random.below(2));
-        let problem = random_problem(&mut random, dimension, points, 0.3);
-        for kind in 0..2 {
-            let used = match kind {
-                0 => blurred(&problem, &mut random),
-                _ => rough(&problem, &mut random),
-            };
+        let case = Case::new(random_problem(&mut random, dimension, points, 0.3));
+        for (kind, used) in [blurred, rough].into_iter().enumerate() {
+            let used = used(&case, &mut random);
             if let Some(used) = used {
                 proved[kind] += 1;
                 most[kind] = (most[kind].0.max(used.0), most[kind].1.max(used.1));

@@ -178,6 +178,37 @@ struct Tally {
     extended_closed: usize,
 }
 
+impl Tally {
+    /// So many faults of each kind, but for those that are `rare`.
+    fn has_more_than(&self, least: usize, rare: Option<usize>) {
+        println!("{self:?}");
+        let counts = self.injected.iter().enumerate();
+        let mut others = counts.filter(|(kind, _)| Some(*kind) != rare);
+        assert!(others.all(|(_, &count)| count > least), "{self:?}");
+    }
+}
+
+/// Coordinates and auxiliary unknowns with signs changed at random are hardly ever near a path where there are other
+/// constraints.
+const MIRRORED: Option<usize> = Some(5);
+
+/// Faulty runs of problems whose sound ones close, so many times six each.
+fn try_all(
+    names: &[&str],
+    (rounds, finest, max_steps): (usize, f64, usize),
+    random: &mut Random,
+) -> Tally {
+    let mut tally = Tally::default();
+    for problem in problems(names) {
+        for _ in 0..effort(rounds) {
+            let how = (finest, &[Space::Full][..]);
+            let sound = try_faults(&problem, how, max_steps, random, &mut tally);
+            assert!(sound, "{}", problem.name);
+        }
+    }
+    tally
+}
+
 /// Six faulty runs of a problem. False: the sound one does not close.
 fn try_faults(
     problem: &Problem,
@@ -251,16 +282,13 @@ fn no_fault_leads_to_a_false_claim() {
         let how = (-4.0, &[Space::Full, Space::Reduced][..]);
         try_faults(&problem, how, 600, &mut random, &mut tally);
     }
-    println!("{tally:?}");
-    let injected = tally.injected;
-    assert!(injected.iter().all(|&count| count > 50), "{injected:?}");
+    tally.has_more_than(50, None);
     assert!(tally.closed > 100);
 }
 
 /// Where other branches are 1e-8 away, and less than 53 bits can tell: with faults as small as that.
 #[test]
 fn no_fault_leads_to_a_false_claim_near_singular_places() {
-    let (mut random, mut tally) = (Random::new(13), Tally::default());
     let names = [
         "hard/flaps-split-8",
         "hard/fold-8",
@@ -271,16 +299,8 @@ fn no_fault_leads_to_a_false_claim_near_singular_places() {
         "hard/flaps-apart-3",
         "hard/fold-missed-5",
     ];
-    for problem in problems(&names) {
-        for _ in 0..effort(2) {
-            let how = (-12.0, &[Space::Full][..]);
-            let sound = try_faults(&problem, how, 3000, &mut random, &mut tally);
-            assert!(sound, "{}", problem.name);
-        }
-    }
-    println!("{tally:?}");
-    let injected = tally.injected;
-    assert!(injected.iter().all(|&count| count > 50), "{injected:?}");
+    let tally = try_all(&names, (2, -12.0, 3000), &mut Random::new(13));
+    tally.has_more_than(50, None);
     assert!(
         tally.extended > 10 && tally.extended_closed > 3,
         "{tally:?}"
@@ -290,28 +310,14 @@ fn no_fault_leads_to_a_false_claim_near_singular_places() {
 /// Constraints of other kinds, each with auxiliary unknowns of its own.
 #[test]
 fn no_fault_leads_to_a_false_claim_with_other_constraints() {
-    let (mut random, mut tally) = (Random::new(17), Tally::default());
     let names = [
         "constraints/3p3l",
         "constraints/3p3l-orthogonal",
         "constraints/6p7d3a2c-closed",
         "constraints/pentahedron",
     ];
-    for problem in problems(&names) {
-        for _ in 0..effort(3) {
-            let how = (-4.0, &[Space::Full][..]);
-            let sound = try_faults(&problem, how, 1000, &mut random, &mut tally);
-            assert!(sound, "{}", problem.name);
-        }
-    }
-    println!("{tally:?}");
-    let injected = tally.injected;
-    // Coordinates and auxiliary unknowns with signs changed at random, the sixth kind, are hardly ever near a path.
-    let others = (0..injected.len()).filter(|&kind| kind != 5);
-    assert!(
-        others.map(|kind| injected[kind]).all(|count| count > 20),
-        "{injected:?}"
-    );
+    let tally = try_all(&names, (3, -4.0, 1000), &mut Random::new(17));
+    tally.has_more_than(20, MIRRORED);
     assert!(tally.closed > 5, "{tally:?}");
 }
 
@@ -324,12 +330,6 @@ fn no_fault_leads_to_a_false_claim_with_mixed_kinds() {
         let how = (-4.0, &[Space::Full, Space::Reduced][..]);
         sound += usize::from(try_faults(&problem, how, 600, &mut random, &mut tally));
     }
-    println!("{sound} {tally:?}");
-    let injected = tally.injected;
-    let others = (0..injected.len()).filter(|&kind| kind != 5);
-    assert!(
-        others.map(|kind| injected[kind]).all(|count| count > 20),
-        "{injected:?}"
-    );
+    tally.has_more_than(20, MIRRORED);
     assert!(sound > 25 && tally.closed > 30, "{tally:?}");
 }

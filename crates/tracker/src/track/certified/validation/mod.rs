@@ -24,7 +24,7 @@ mod tubes;
 pub use faults::inject as inject_fault;
 
 use crate::plan::testing;
-use along::{at_sketch, leads_truly, link_is_true, mirrored, on_path, sketch};
+use along::{at_sketch, leads_truly, link_is_true, mirrored, on_path};
 
 use super::link::Tube;
 use super::tracker::Test;
@@ -34,7 +34,9 @@ use crate::linalg::{Matrix, Vector};
 use crate::problem::{Decimal, Problem, Target};
 use crate::system::Homotopy;
 use crate::track::full::certified::KrawczykTest;
-use crate::track::full::{Equations, InverseMaker, Local, ORDER, Preconditioner, first_normal};
+use crate::track::full::{
+    Equations, InverseMaker, Local, ORDER, Preconditioner, first_normal, sketch,
+};
 use crate::track::reduced::certified::{Bounds, COEFFICIENTS, ReducedTest};
 use crate::track::{Control, Options, Solution, Space, Status, solve};
 
@@ -243,7 +245,7 @@ impl Stated<{ ORDER + 1 }> for KrawczykTest {
     type Kept = Matrix;
 
     fn kept(&self) -> Matrix {
-        self.moving_matrix().clone()
+        self.a.clone()
     }
 }
 
@@ -252,7 +254,7 @@ impl Stated<COEFFICIENTS> for ReducedTest {
     type Kept = (Bounds, Vec<f64>);
 
     fn kept(&self) -> (Bounds, Vec<f64>) {
-        (*self.stated(), self.defect().to_vec())
+        (self.last, self.defect.to_vec())
     }
 }
 
@@ -361,6 +363,14 @@ impl<const N: usize, T: Stated<N>> Maker<N, T> {
     }
 }
 
+impl Shop {
+    /// What the bounds of a tube for |s| ≤ `h` are, whether or not they prove anything.
+    pub fn bounds_at(&mut self, tube: &mut ReducedTube, h: f64) -> Option<(Bounds, Vec<f64>)> {
+        self.test.bounds_at(&self.equations, tube, h)?;
+        Some(self.test.kept())
+    }
+}
+
 impl Workshop {
     /// Proves a tube around its middle as it is, with these weights and at most so long: whether that was possible.
     pub fn prove_as_it_is(&mut self, tube: &mut Tube, mut weights: Vector, max_h: f64) -> bool {
@@ -368,7 +378,7 @@ impl Workshop {
         let proof = test.prove(equations, &tube.local, &mut weights, max_h);
         if let Some(proof) = proof {
             tube.proof = proof;
-            tube.weights.copy_from_slice(test.weights());
+            tube.weights.copy_from_slice(&test.u);
             tube.exit_at = 0.97 * proof.h;
         }
         proof.is_some()

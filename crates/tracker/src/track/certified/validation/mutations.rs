@@ -110,10 +110,9 @@ fn mutate(problem: &Problem, random: &mut Random, tally: &mut Tally) {
         panic!("{}", problem.to_toml())
     };
     let (m, n) = (sound.m, sound.n());
-    let (mut z, mut v) = (sound.vector(), sound.vector());
-    let sketch = homotopy.sketch_of_unknowns().map(|x| x.mid());
-    for (z, x) in z.iter_mut().zip(sketch.collect::<Vec<_>>()) {
-        *z = x + random.between(-0.3, 0.3);
+    let (mut z, mut v) = (sketch(&homotopy, &sound), sound.vector());
+    for z in &mut z[..m] {
+        *z += random.between(-0.3, 0.3);
     }
     z[m] = random.between(0.0, 1.0);
     v[..n]

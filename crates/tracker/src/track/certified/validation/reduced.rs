@@ -2,7 +2,7 @@
 
 use super::disguise::every_other_disguised;
 use super::precise::reduced::check_problem;
-use super::precise::{Ratios, with_homotopies};
+use super::precise::{Case, Ratios};
 use super::*;
 use crate::linalg::LANE;
 use crate::places::array;
@@ -21,10 +21,9 @@ pub fn right_hand_sides(random: &mut Random, rows: usize) -> Vec<[f64; LANE]> {
 #[test]
 fn reduced_proofs_hold_along_the_shipped_problems() {
     let (mut ratios, mut random) = (Ratios::default(), Random::new(21));
-    for (problem, homotopy) in with_homotopies(shipped()) {
+    for case in shipped().into_iter().map(Case::new) {
         for how in [(0.1, f64::INFINITY), (0.4, f64::INFINITY), (0.1, 1e-3)] {
-            let given = (&problem, &homotopy);
-            check_problem(given, how, (10, 6), &mut random, &mut ratios);
+            check_problem(&case, how, (10, 6), &mut random, &mut ratios);
         }
     }
     ratios.come_near(&[("|Φ'(0)|", 0.3), ("|Φ(0)|", 0.1)]);
@@ -41,12 +40,10 @@ fn hold_along_random_problems(rounds: usize, [least, least_tightened]: [usize; 2
         let problem = random_problem(&mut random, dimension, points, change);
         let alpha = [0.05, 0.1, 0.2, 0.4][random.below(4)];
         let how = (alpha, [f64::INFINITY, 1e-2][random.below(2)]);
-        let given = every_other_disguised(round, problem, &mut random);
-        let Some((problem, homotopy)) = given else {
+        let Some(case) = every_other_disguised(round, problem, &mut random) else {
             continue;
         };
-        let given = (&problem, &homotopy);
-        let counts = check_problem(given, how, (8, 4), &mut random, &mut ratios);
+        let counts = check_problem(&case, how, (8, 4), &mut random, &mut ratios);
         tubes += counts[0];
         tightened += counts[1];
     }
@@ -71,12 +68,10 @@ fn reduced_proofs_hold_along_many_random_problems() {
 fn hold_along_problems_of_mixed_kinds(rounds: usize, least: usize) {
     let (mut ratios, mut random, mut tubes) = (Ratios::default(), Random::new(24), 0);
     for round in 0..effort(rounds) {
-        let problem = mixed_problem(&mut random, 2 + round % 2);
-        let homotopy = Homotopy::new(&problem).unwrap();
+        let case = Case::new(mixed_problem(&mut random, 2 + round % 2));
         let alpha = [0.05, 0.1, 0.2, 0.4][random.below(4)];
         let how = (alpha, [f64::INFINITY, 1e-2][random.below(2)]);
-        let given = (&problem, &homotopy);
-        tubes += check_problem(given, how, (8, 4), &mut random, &mut ratios)[0];
+        tubes += check_problem(&case, how, (8, 4), &mut random, &mut ratios)[0];
     }
     assert!(tubes > least, "{tubes}");
 }

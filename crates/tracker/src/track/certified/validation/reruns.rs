@@ -110,16 +110,22 @@ fn compare(problem: &Problem, random: &mut Random, runs: &mut [usize; 3]) {
         return;
     };
     check_solutions(problem, &first);
-    let mut others: Vec<(String, Problem, Option<f64>, bool, f64)> = vec![
-        ("reversed".into(), problem.clone(), None, true, 1.0),
-        (
-            "small steps".into(),
-            problem.clone(),
-            Some(random.between(0.02, 0.3)),
-            false,
-            1.0,
-        ),
-    ];
+    let mut again = |what: &str, problem: &Problem, max_step: Option<f64>, reverse, scale| {
+        let Some(outcome) = run(problem, max_step, reverse, 20_000) else {
+            runs[1] += 1;
+            return;
+        };
+        runs[0] += 1;
+        assert!(
+            agree(&first, &outcome, scale),
+            "{what}: {} solutions at first, then {}\n{problem:#?}",
+            first.solutions.len(),
+            outcome.solutions.len()
+        );
+    };
+    again("reversed", problem, None, true, 1.0);
+    let short = Some(random.between(0.02, 0.3));
+    again("small steps", problem, short, false, 1.0);
     // Another reference, of joined points or of any: the path cannot tell them apart, unless the
     // reference degenerates on the way, which at best ends the run.
     let any = random.below(2) == 0;
@@ -138,13 +144,8 @@ fn compare(problem: &Problem, random: &mut Random, runs: &mut [usize; 3]) {
         if (any || joined(&reference)) && reference != problem.homotopy.reference {
             other.homotopy.reference = reference;
             if other.check().is_ok() {
-                others.push((
-                    "another reference".into(),
-                    other,
-                    None,
-                    random.below(2) == 0,
-                    1.0,
-                ));
+                let reverse = random.below(2) == 0;
+                again("another reference", &other, None, reverse, 1.0);
                 break;
             }
             other = problem.clone();
@@ -153,27 +154,8 @@ fn compare(problem: &Problem, random: &mut Random, runs: &mut [usize; 3]) {
     // Another size: exact, as decimals are shifted.
     let exponent = [-40, -7, 5, 40][random.below(4)];
     if let Some(scaled) = scaled(problem, exponent) {
-        others.push((
-            format!("10^{exponent}"),
-            scaled,
-            None,
-            false,
-            10f64.powi(exponent),
-        ));
-    }
-    for (what, problem, max_step, reverse, scale) in others {
-        match run(&problem, max_step, reverse, 20_000) {
-            None => runs[1] += 1,
-            Some(outcome) => {
-                runs[0] += 1;
-                assert!(
-                    agree(&first, &outcome, scale),
-                    "{what}: {} solutions at first, then {}\n{problem:#?}",
-                    first.solutions.len(),
-                    outcome.solutions.len()
-                );
-            }
-        }
+        let scale = 10f64.powi(exponent);
+        again(&format!("10^{exponent}"), &scaled, None, false, scale);
     }
 }
 
@@ -192,10 +174,7 @@ fn closed_runs_agree() {
         };
         compare(&problem, &mut random, &mut runs);
     }
-    println!(
-        "{} runs agree, {} did not close, {} problems did not close at all",
-        runs[0], runs[1], runs[2]
-    );
+    println!("{runs:?} agree, did not close, and problems that did not close at all");
     assert!(runs[0] > 120);
 }
 
@@ -259,9 +238,6 @@ fn closed_runs_of_the_shipped_problems_agree() {
     for problem in shipped() {
         compare(&problem, &mut random, &mut runs);
     }
-    println!(
-        "{} runs agree, {} did not close, {} problems did not close at all",
-        runs[0], runs[1], runs[2]
-    );
+    println!("{runs:?} agree, did not close, and problems that did not close at all");
     assert!(runs[0] >= 8);
 }

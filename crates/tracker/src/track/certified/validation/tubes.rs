@@ -2,7 +2,7 @@
 
 use super::disguise::every_other_disguised;
 use super::precise::full::{check_exit, check_path};
-use super::precise::{Figure, Ratios, with_homotopies};
+use super::precise::{Case, Ratios, spread};
 use super::*;
 
 /// What was checked, and how near the proofs' bounds the true values came.
@@ -15,24 +15,23 @@ struct Tally {
 }
 
 fn check_problem(
-    (problem, homotopy): (&Problem, &Homotopy),
+    case: &Case,
     max_h: f64,
     (tubes, rounds): (usize, usize),
     random: &mut Random,
     tally: &mut Tally,
 ) {
-    let figure = Figure::new(problem, homotopy);
+    let (homotopy, figure) = (&case.homotopy, &case.figure);
     let mut workshop = Workshop::new(homotopy, max_h);
     let chain = workshop.chain(homotopy, 1000);
-    let stride = (chain.len() / tubes).max(1);
-    for k in (0..chain.len()).step_by(stride) {
+    for k in spread(&chain, tubes) {
         let sample = &chain[k];
         tally.tubes += 1;
         for _ in 0..rounds {
-            check_path(&figure, sample, random, &mut tally.ratios).expect("a regular point");
+            check_path(figure, sample, random, &mut tally.ratios).expect("a regular point");
         }
         let exits = (sample, chain.get(k + 1));
-        check_exit(&mut workshop, &figure, exits, &mut tally.ratios).expect("a regular point");
+        check_exit(&mut workshop, figure, exits, &mut tally.ratios).expect("a regular point");
 
         // What is provable is provable for shorter tubes, unless so short that rounding drowns
         // the direction.
@@ -47,7 +46,7 @@ fn check_problem(
             assert!(tube.proof.h <= h);
             let kept = workshop.test.kept();
             let shorter = Sample { tube, kept };
-            check_path(&figure, &shorter, random, &mut tally.ratios).expect("a regular point");
+            check_path(figure, &shorter, random, &mut tally.ratios).expect("a regular point");
         }
     }
 }
@@ -56,15 +55,9 @@ fn check_problem(
 fn proofs_hold_along_the_shipped_problems() {
     let mut tally = Tally::default();
     let mut random = Random::new(1);
-    for (problem, homotopy) in with_homotopies(shipped()) {
+    for case in shipped().into_iter().map(Case::new) {
         for max_h in [f64::INFINITY, 1e-2, 1e-5] {
-            check_problem(
-                (&problem, &homotopy),
-                max_h,
-                (12, 4),
-                &mut random,
-                &mut tally,
-            )
+            check_problem(&case, max_h, (12, 4), &mut random, &mut tally)
         }
     }
     println!("{tally:?}");
@@ -82,17 +75,9 @@ fn proofs_hold_along_random_problems() {
         let change = [0.1, 0.5, 1e-6][random.below(3)];
         let problem = random_problem(&mut random, dimension, points, change);
         let max_h = [f64::INFINITY, 1e-3][random.below(2)];
-        let given = every_other_disguised(round, problem, &mut random);
-        let Some((problem, homotopy)) = given else {
-            continue;
-        };
-        check_problem(
-            (&problem, &homotopy),
-            max_h,
-            (8, 4),
-            &mut random,
-            &mut tally,
-        )
+        if let Some(case) = every_other_disguised(round, problem, &mut random) {
+            check_problem(&case, max_h, (8, 4), &mut random, &mut tally)
+        }
     }
     println!("{tally:?}");
     assert!(
@@ -108,16 +93,9 @@ fn proofs_hold_along_problems_of_mixed_kinds() {
     let mut tally = Tally::default();
     let mut random = Random::new(4);
     for round in 0..effort(40) {
-        let problem = mixed_problem(&mut random, 2 + round % 2);
-        let homotopy = Homotopy::new(&problem).unwrap();
+        let case = Case::new(mixed_problem(&mut random, 2 + round % 2));
         let max_h = [f64::INFINITY, 1e-3][random.below(2)];
-        check_problem(
-            (&problem, &homotopy),
-            max_h,
-            (8, 4),
-            &mut random,
-            &mut tally,
-        )
+        check_problem(&case, max_h, (8, 4), &mut random, &mut tally)
     }
     println!("{tally:?}");
     assert!(tally.tubes > 120, "too few cases: {tally:?}");

@@ -64,13 +64,7 @@ impl KrawczykTest {
         let t = local.z[0][m].abs() + reach;
         let t_higher: f64 = (3..=ORDER).map(|k| local.z[k][m].abs() * hs[k]).sum();
         let of_right = gamma(equations.roundings().of_coefficient(ORDER));
-        let Bounds {
-            rounding,
-            higher,
-            width,
-            low,
-            ..
-        } = &mut self.bounds;
+        let bounds = &mut self.bounds;
         let [e0, e1, e2] = equations.e.each_ref().each(|e| e.lanes());
         let [r0, r1, r2] = equations.e_radius.each_ref().each(|r| r.lanes());
         for l in 0..e0.len() {
@@ -88,14 +82,14 @@ impl KrawczykTest {
             }
             let [e0, e1, e2] = [e0[l], e1[l], e2[l]].each(|e| e.each(f64::abs));
             let (r0, r1, r2) = (r0[l], r1[l], r2[l]);
-            rounding.lanes_mut()[l] = array(|i| {
+            bounds.rounding.lanes_mut()[l] = array(|i| {
                 let slope_size = e1[i] + 2.0 * t * e2[i];
                 let slope_radius = r1[i] + 2.0 * t * r2[i];
                 per_entry * (j_near[i] + slope_size * ut) + slope_radius * ut
             });
-            higher.lanes_mut()[l] = array(|i| j_far[i] + 2.0 * e2[i] * t_higher * ut);
-            width.lanes_mut()[l] = array(|i| j_width[i] + 2.0 * (e2[i] + r2[i]) * (ut * ut));
-            low.lanes_mut()[l] = array(|i| {
+            bounds.higher.lanes_mut()[l] = array(|i| j_far[i] + 2.0 * e2[i] * t_higher * ut);
+            bounds.width.lanes_mut()[l] = array(|i| j_width[i] + 2.0 * (e2[i] + r2[i]) * (ut * ut));
+            bounds.low.lanes_mut()[l] = array(|i| {
                 let length_size = e0[i] + t * (e1[i] + t * e2[i]);
                 let length_radius = r0[i] + t * (r1[i] + t * r2[i]);
                 of_right * (size[i] + length_size) + length_radius
@@ -162,13 +156,7 @@ impl KrawczykTest {
     ) {
         let tail = &equations.tail;
         let per_term = gamma(equations.roundings().of_coefficient(ORDER));
-        let Bounds {
-            rounding,
-            higher,
-            width,
-            low,
-            ..
-        } = &mut self.bounds;
+        let bounds = &mut self.bounds;
         let lanes = local.d[0].forms.lanes().len();
         let forms: [_; ORDER + 1] = array(|k| &local.d[k].forms.lanes()[..lanes]);
         let (near, far) = (&mut self.near.forms, &mut self.far.forms);
@@ -182,13 +170,13 @@ impl KrawczykTest {
         });
         let sums = &self.sums.forms;
         // |J_k| u and |J'(w)| u: either factor changes while the other is there.
-        tail.add_products_abs(per_entry, near, sums, rounding);
-        tail.add_products_abs(1.0, far, sums, higher);
-        tail.add_products_abs(1.0, sums, sums, width);
+        tail.add_products_abs(per_entry, near, sums, &mut bounds.rounding);
+        tail.add_products_abs(1.0, far, sums, &mut bounds.higher);
+        tail.add_products_abs(1.0, sums, sums, &mut bounds.width);
         let coefficients = &mut self.tail_sizes;
         let (near, far) = (near.lanes(), far.lanes());
         coefficients.set_lanes(tail, |lane| array(|i| near[lane][i] + far[lane][i]));
-        tail.add_squares_abs(2.0 * per_term, coefficients, low);
+        tail.add_squares_abs(2.0 * per_term, coefficients, &mut bounds.low);
     }
 
     /// Adds to the bounds of an equation of degree 4 in t what its terms of degree > 2 in t bring.
@@ -201,28 +189,22 @@ impl KrawczykTest {
         hs: &[f64; DEGREE + 1],
         per_entry: f64,
     ) {
-        let Bounds {
-            rounding,
-            higher,
-            width,
-            low,
-            ..
-        } = &mut self.bounds;
+        let bounds = &mut self.bounds;
         let bend = &equations.bends[b];
         let (e, r, at) = (bend.e.each(f64::abs), &bend.e_radius, bend.edge);
         let cube = t * t * t;
         let of_right = gamma(equations.roundings().of_coefficient(ORDER));
-        low[at] += of_right * (cube * (e[3] + t * e[4])) + cube * (r[3] + t * r[4]);
+        bounds.low[at] += of_right * (cube * (e[3] + t * e[4])) + cube * (r[3] + t * r[4]);
         let slope_size = t * t * (3.0 * e[3] + 4.0 * t * e[4]);
         let slope_radius = t * t * (3.0 * r[3] + 4.0 * t * r[4]);
-        rounding[at] += per_entry * slope_size * ut + slope_radius * ut;
+        bounds.rounding[at] += per_entry * slope_size * ut + slope_radius * ut;
         // The width may add its share to t: |w_t| ≤ r u_t ≤ 1, as `proof` takes care.
         let wide = t + 1.0;
-        width[at] += wide * (6.0 * (e[3] + r[3]) + 12.0 * wide * (e[4] + r[4])) * (ut * ut);
+        bounds.width[at] += wide * (6.0 * (e[3] + r[3]) + 12.0 * wide * (e[4] + r[4])) * (ut * ut);
         // All of the bend's terms, though the ones of e₂ are counted already.
         let terms: f64 = (3..=(MAX_DEGREE - 1) * ORDER)
             .map(|k| local.bend_slope(b, k).abs() * hs[k])
             .sum();
-        higher[at] += terms * ut;
+        bounds.higher[at] += terms * ut;
     }
 }

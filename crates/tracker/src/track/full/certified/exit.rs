@@ -9,9 +9,6 @@ use crate::track::certified::proof::Proof;
 use crate::track::full::newton::{UNTIL, Until};
 use crate::track::full::{Equations, Local, dot, shift};
 
-/// How near the exit's middle is brought to the path, as a fraction of the tube's radius.
-const ENOUGH: f64 = 2e-2;
-
 /// Corrections with a proved tube's preconditioner, which shrink as far as precision goes.
 fn until(goal: f64) -> Until {
     Until {
@@ -25,30 +22,12 @@ fn until(goal: f64) -> Until {
 }
 
 impl KrawczykTest {
-    /// Encloses the path's point in the cross-section at `exit_at` of the tube that was proved
-    /// last, whose A this test still has, as tightly as most links need.
-    pub fn enclose_exit(&mut self, equations: &Equations, tube: &mut Tube) -> Option<()> {
-        self.enclose(equations, tube, ENOUGH)?;
-        tube.exit_is_tight = false;
-        Some(())
-    }
-
-    /// Encloses the path's point, and its tangent there, in the cross-section at `exit_at` of a tube proved
-    /// earlier, as tightly as floats allow: needed where the next tube is much narrower.
-    pub fn tighten_exit(&mut self, equations: &Equations, tube: &mut Tube) -> Option<()> {
-        self.make_moving_matrix(equations, &tube.local);
-        self.enclose(equations, tube, 0.0)?;
-        tube.exit_slope_radius = self.enclose_tangent(equations, tube);
-        tube.exit_is_tight = true;
-        Some(())
-    }
-
     /// Encloses the path's tangent T at the exit, c·T = 1, into `tube.exit_slope`; returns its
     /// radius in |·|_u. The bound over the whole tube can be too wide where the next is narrow.
     ///
     /// T solves [J(P); c] T = e_n. As |I − Ỹ [J(P); c]|_u ≤ q for the path's point P, which is in the
     /// tube, the solution is at most |Ỹ([J(P); c] v − e_n)|_u / (1 − q) from any v.
-    fn enclose_tangent(&mut self, equations: &Equations, tube: &mut Tube) -> f64 {
+    pub(super) fn enclose_tangent(&mut self, equations: &Equations, tube: &mut Tube) -> f64 {
         let (m, n) = (equations.m, equations.n());
         let (local, proof, u, s) = (&tube.local, &tube.proof, &tube.weights, tube.exit_at);
         let (exit, v) = (&tube.exit, &mut tube.exit_slope);
@@ -131,8 +110,13 @@ impl KrawczykTest {
 
     /// A few steps w ← w − Ỹ(s) G_s(w), until they are below `accuracy` times r or do not shrink
     /// any more. As that map is a contraction by q, the zero is at most |Ỹ(s) G_s(w)|_u / (1 − q)
-    /// from any w in the box.
-    fn enclose(&mut self, equations: &Equations, tube: &mut Tube, accuracy: f64) -> Option<()> {
+    /// from any w in the box. The test must have the A of the tube.
+    pub(super) fn enclose(
+        &mut self,
+        equations: &Equations,
+        tube: &mut Tube,
+        accuracy: f64,
+    ) -> Option<()> {
         let extended = self.precision.extended || tube.local.is_extended;
         let (m, n) = (equations.m, equations.n());
         let (local, proof, u, s) = (&tube.local, &tube.proof, &tube.weights, tube.exit_at);
@@ -198,13 +182,6 @@ impl KrawczykTest {
         self.f[n - 1] = along;
         self.hidden[n - 1] = error;
         let radius = self.radius_from_defect(local, proof, u, s);
-        if !(extent < proof.r && radius < proof.r) {
-            return None;
-        }
-        for i in 0..n {
-            tube.exit.radius[i] = round_up(radius * u[i], 1);
-        }
-        tube.exit_between = (s, s);
-        Some(())
+        tube.hold_exit(extent, radius)
     }
 }

@@ -33,6 +33,8 @@ use crate::track::full::{
 };
 use crate::track::{Driving, Options, Space};
 
+/// How near the exit's middle is brought to the path, as a fraction of the tube's radius.
+const ENOUGH: f64 = 2e-2;
 /// The smallest weight of an entry beside the largest, 1.
 const MIN_WEIGHT: f64 = 0.1;
 /// Far away unknowns differ in size as powers of each other do, and weights have to; no more than certificates tell well.
@@ -77,7 +79,7 @@ pub struct KrawczykTest {
     pub(in crate::track) u: Vector,
     square_u: Vector,
     /// Weights for the next proof, and those to return to if it is rejected.
-    next_weights: Vector,
+    pub(in crate::track) next_weights: Vector,
     kept_weights: Vector,
     maker: InverseMaker,
     workers: Workers,
@@ -88,40 +90,6 @@ pub struct KrawczykTest {
 }
 
 impl KrawczykTest {
-    /// Room for the tubes of a problem. Large ones are proved on so many threads.
-    pub fn new(equations: &Equations, threads: usize) -> Self {
-        let n = equations.n();
-        let entries = equations.pattern().entries();
-        let mut ones = equations.vector();
-        ones[..n].fill(1.0);
-        KrawczykTest {
-            radius: f64::INFINITY,
-            a: Matrix::zeros(n, n),
-            j1: vec![0.0; entries],
-            j2: vec![0.0; entries],
-            j0: vec![0.0; equations.bordered_pattern().entries()],
-            bounds: Bounds::new(equations),
-            hidden: equations.vector(),
-            rest: equations.vector(),
-            near: equations.room(),
-            far: equations.room(),
-            sums: equations.room(),
-            tail_sizes: Forms::new(&equations.tail),
-            coefficient: equations.per_edge(),
-            lengths: Lengths::new(equations),
-            v: equations.vector(),
-            f: equations.vector(),
-            u: equations.vector(),
-            square_u: equations.vector(),
-            next_weights: ones.clone(),
-            kept_weights: ones,
-            maker: equations.inverter(),
-            workers: Workers::new(n, threads),
-            staleness: 0.0,
-            precision: Precision::default(),
-        }
-    }
-
     /// Finds the longest tube around `local` that can be proved, at most `max_h` to either side.
     /// `weights` are u; they are replaced by better ones for the next tube.
     ///
@@ -313,33 +281,41 @@ pub(in crate::track) fn norm_of(v: &[f64], u: &[f64], n: usize) -> f64 {
     lane.into_iter().chain(rest).fold(0.0, largest)
 }
 
-#[cfg(test)]
-impl KrawczykTest {
-    /// The weights of the last proof.
-    pub(in crate::track) fn weights(&self) -> &Vector {
-        &self.u
-    }
-
-    /// The weights for the next one.
-    pub(in crate::track) fn weights_mut(&mut self) -> &mut Vector {
-        &mut self.next_weights
-    }
-
-    /// A of the last proof.
-    pub(in crate::track) fn moving_matrix(&self) -> &Matrix {
-        &self.a
-    }
-}
-
 impl Test<{ ORDER + 1 }> for KrawczykTest {
     type Frame = Matrix;
     const SPACE: Space = Space::Full;
     const FORESEES: bool = false;
 
     fn new(homotopy: &Homotopy, equations: &Equations, options: &Options) -> Self {
+        let n = equations.n();
+        let entries = equations.pattern().entries();
+        let mut ones = equations.vector();
+        ones[..n].fill(1.0);
         KrawczykTest {
             radius: options.radius(homotopy.unit),
-            ..KrawczykTest::new(equations, options.threads)
+            a: Matrix::zeros(n, n),
+            j1: vec![0.0; entries],
+            j2: vec![0.0; entries],
+            j0: vec![0.0; equations.bordered_pattern().entries()],
+            bounds: Bounds::new(equations),
+            hidden: equations.vector(),
+            rest: equations.vector(),
+            near: equations.room(),
+            far: equations.room(),
+            sums: equations.room(),
+            tail_sizes: Forms::new(&equations.tail),
+            coefficient: equations.per_edge(),
+            lengths: Lengths::new(equations),
+            v: equations.vector(),
+            f: equations.vector(),
+            u: equations.vector(),
+            square_u: equations.vector(),
+            next_weights: ones.clone(),
+            kept_weights: ones,
+            maker: equations.inverter(),
+            workers: Workers::new(n, options.threads),
+            staleness: 0.0,
+            precision: Precision::default(),
         }
     }
 
@@ -403,11 +379,17 @@ impl Test<{ ORDER + 1 }> for KrawczykTest {
     }
 
     fn enclose_exit(&mut self, equations: &Equations, tube: &mut Tube) -> Option<()> {
-        KrawczykTest::enclose_exit(self, equations, tube)
+        self.enclose(equations, tube, ENOUGH)?;
+        tube.exit_is_tight = false;
+        Some(())
     }
 
     fn tighten_exit(&mut self, equations: &Equations, tube: &mut Tube) -> Option<()> {
-        KrawczykTest::tighten_exit(self, equations, tube)
+        self.make_moving_matrix(equations, &tube.local);
+        self.enclose(equations, tube, 0.0)?;
+        tube.exit_slope_radius = self.enclose_tangent(equations, tube);
+        tube.exit_is_tight = true;
+        Some(())
     }
 
     fn plans(&self) -> (usize, Driving) {

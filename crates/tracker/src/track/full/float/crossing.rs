@@ -7,17 +7,16 @@
 
 use crate::linalg::Vector;
 use crate::system::{Heights, Homotopy};
+use crate::track::flat::Trials;
 use crate::track::full::{Equations, InverseMaker, Local, ORDER, Preconditioner, first_normal};
 
-/// Steps over t = 1 are tried where t is nearer to 1 than this,
-const NEAR: f64 = 0.05;
-/// and farther than this.
-const NEAREST: f64 = 1e-6;
-/// After a trial in vain the next is made at this part of the distance.
-const NEARER: f64 = 0.5;
-/// A path runs into a flat figure where heights would be so small at t = 1, beside what they are, if they went on as
-/// they do.
-const VANISHING: f64 = 0.1;
+/// When steps over t = 1 are tried.
+const TRIALS: Trials = Trials {
+    near: 0.05,
+    nearest: 1e-6,
+    nearer: 0.5,
+    vanishing: 0.1,
+};
 /// A corrected point may be away from its prediction by this part of the step.
 const OFF: f64 = 0.02;
 
@@ -58,28 +57,6 @@ impl Crossing {
         })
     }
 
-    /// Whether the path runs into a flat figure, and a step over it is to be tried at this point.
-    fn is_due<Y>(&mut self, homotopy: &Homotopy, now: &Path<Y>) -> bool {
-        let t = homotopy.equations;
-        let (left, slope) = (1.0 - now.z[0][t], now.z[1][t]);
-        if left.abs() > NEAR || left * slope <= 0.0 {
-            self.failed = None;
-            return false;
-        }
-        if self.failed.is_some_and(|at| left.abs() > NEARER * at) || left.abs() < NEAREST {
-            return false;
-        }
-        let (mut largest, mut remaining) = (0.0f64, 0.0f64);
-        for p in 0..homotopy.points {
-            if let Some(i) = homotopy.coordinate(p, 2) {
-                let (z, dz) = (now.z[0][i], now.z[1][i]);
-                largest = largest.max(z.abs());
-                remaining = remaining.max((z + dz * (left / slope)).abs());
-            }
-        }
-        remaining <= VANISHING * largest
-    }
-
     /// If the path runs into a flat figure from `now`, finds that and the point behind it, `next`, with its
     /// expansion.
     pub fn cross<Y: Preconditioner>(
@@ -90,7 +67,7 @@ impl Crossing {
         next: &mut Path<Y>,
         tolerance: f64,
     ) -> Option<Crossed> {
-        if !self.is_due(homotopy, now) {
+        if !TRIALS.is_due(homotopy, now, &mut self.failed) {
             return None;
         }
         let distance = (1.0 - now.z[0][equations.m]).abs();
@@ -145,7 +122,8 @@ impl Crossing {
     }
 }
 
-fn distance(a: &[f64], b: &[f64]) -> f64 {
+/// The greatest difference of two entries.
+pub fn distance(a: &[f64], b: &[f64]) -> f64 {
     let pairs = a.iter().zip(b);
     pairs.fold(0.0, |max: f64, (x, y)| max.max((x - y).abs()))
 }

@@ -1,66 +1,67 @@
 //! Paths that do not come back to the sketch, in floats: both ways from it to their two ends. Nothing is proved.
 
-use super::{Record, follow};
+use super::{SAME_LENGTH, follow};
 use crate::system::Homotopy;
 use crate::track::ends::{
     Away, DEGENERATE, EndKind, FAR, PathEnd, SETTLED, SINGULAR, both_ways, farthest, in_words,
     places, size_of, vanishing,
 };
+use crate::track::float::Record;
 use crate::track::full::{Equations, Preconditioner, condition};
-use crate::track::{Control, LARGEST_SQUARE, Options, Status, Stop, StopKind};
+use crate::track::{Control, LARGEST_SQUARE, Options, Outcome, Status, Stop, StopKind};
 
 /// Why a run ended before it came back to the sketch.
 #[derive(Debug)]
-pub struct Halt {
-    /// In general.
-    pub stop: Stop,
-    /// The end of the path, if that is what it came to.
-    pub end: Option<Box<PathEnd>>,
+pub enum Halt {
+    /// It was stopped.
+    Stopped(Stop),
+    /// It came to an end of the path.
+    Ended(Box<PathEnd>),
 }
 
 impl From<Stop> for Halt {
     fn from(stop: Stop) -> Self {
-        Halt { stop, end: None }
+        Halt::Stopped(stop)
     }
 }
 
-/// Follows the path, and where it comes to an end the other way from the sketch as well.
+/// Follows the path, and where it comes to an end the other way from the sketch as well. `record` is that of a run that
+/// begins.
 pub fn follow_both_ways<Y: Preconditioner>(
     homotopy: &Homotopy,
     (equations, maker): (&Equations, &mut Y::Maker),
     options: &Options,
     control: &mut Control,
-) -> (Status, Record<Y>) {
-    let mut record = Record::<Y>::new(equations);
-    let ahead = follow(
-        homotopy,
-        (equations, &mut *maker),
-        options,
-        control,
-        &mut record,
-    );
-    let end = match ahead {
-        Ok(()) => return (Status::Closed, record),
-        Err(Halt { stop, end: None }) => return (Status::Stopped(stop), record),
-        Err(Halt { end: Some(end), .. }) => end,
+    mut record: Record,
+) -> Outcome {
+    let mut way = |options: &Options, record: &mut Record| {
+        follow::<Y>(homotopy, (equations, &mut *maker), options, control, record)
     };
-    let reversed = Options {
-        reverse: !options.reverse,
-        ..options.clone()
+    let status = match way(options, &mut record) {
+        Ok(()) => Status::Closed,
+        Err(Halt::Stopped(stop)) => Status::Stopped(stop),
+        Err(Halt::Ended(end)) => {
+            let mut back = Record::new();
+            match way(&options.clone().reversed(), &mut back) {
+                Ok(()) => {
+                    // It came back to the sketch after all.
+                    record.give_way_to(back);
+                    Status::Closed
+                }
+                Err(halt) => {
+                    record.go_on_from(back, equations.m);
+                    both_ways(
+                        *end,
+                        match halt {
+                            Halt::Ended(other) => Ok(*other),
+                            Halt::Stopped(stop) => Err(stop),
+                        },
+                    )
+                }
+            }
+        }
     };
-    let mut back = Record::<Y>::new(equations);
-    let result = follow(homotopy, (equations, maker), &reversed, control, &mut back);
-    let Err(halt) = result else {
-        // It came back to the sketch after all.
-        back.steps += record.steps;
-        back.rejected += record.rejected;
-        return (Status::Closed, back);
-    };
-    record.go_on_from(back, equations.m);
-    // Both ways begin there.
-    record.meet(0.0);
-    let status = both_ways(*end, halt.end.map(|end| *end).ok_or(halt.stop));
-    (status, record)
+    record.into_outcome(homotopy, status, SAME_LENGTH)
 }
 
 /// Watches for the ends of a path. Distances alone have none: they cannot let a figure grow beyond bounds while t does
@@ -112,12 +113,12 @@ impl<'h> Ends<'h> {
     }
 
     /// The end of a path on which something goes through zero between two points.
-    pub fn undefined(&self, now: &[f64], next: &[f64], reason: &str) -> PathEnd {
+    pub fn undefined(&self, now: &[f64], next: &[f64], reason: String) -> Halt {
         let m = self.homotopy.equations;
-        PathEnd {
+        Halt::Ended(Box::new(PathEnd {
             t: (now[m].min(next[m]), now[m].max(next[m])),
-            ..self.end(now, EndKind::Undefined, reason.to_owned())
-        }
+            ..self.end(now, EndKind::Undefined, reason)
+        }))
     }
 
     /// The point that goes away, if at this point of the path, with this direction there, one is far from the others and
@@ -145,14 +146,10 @@ impl<'h> Ends<'h> {
     /// The end of a path on which a point goes away; `place` says where, in words.
     pub fn infinite(&self, z: &[f64], away: Away, place: &str) -> Halt {
         let words = format!("{}, {place}", in_words(self.homotopy, away));
-        let end = PathEnd {
+        Halt::Ended(Box::new(PathEnd {
             away: Some(away),
-            ..self.end(z, EndKind::Infinite, words.clone())
-        };
-        Halt {
-            stop: Stop::new(StopKind::Infinite, words),
-            end: Some(Box::new(end)),
-        }
+            ..self.end(z, EndKind::Infinite, words)
+        }))
     }
 
     /// What a run has come to that cannot go on at this point of the path, with this normal: the end of the path if
@@ -175,11 +172,7 @@ impl<'h> Ends<'h> {
         } else {
             return stop.into();
         };
-        let end = self.end(z, kind, words);
-        Halt {
-            stop,
-            end: Some(Box::new(end)),
-        }
+        Halt::Ended(Box::new(self.end(z, kind, words)))
     }
 
     fn end(&self, z: &[f64], kind: EndKind, reason: String) -> PathEnd {
@@ -196,8 +189,8 @@ impl<'h> Ends<'h> {
 
 /// Where t goes on without end: an end of the path if it has any, see [`Ends`].
 pub fn endless(ends: Option<&Ends<'_>>, z: &[f64], words: String) -> Halt {
-    Halt {
-        end: ends.map(|ends| Box::new(ends.end(z, EndKind::Infinite, words.clone()))),
-        stop: Stop::new(StopKind::Infinite, words),
+    match ends {
+        Some(ends) => Halt::Ended(Box::new(ends.end(z, EndKind::Infinite, words))),
+        None => Stop::new(StopKind::Infinite, words).into(),
     }
 }

@@ -1,16 +1,14 @@
 //! The paper's tracker in the full space, to set its figures beside ours (RR 8705, section 7.1).
 
-use super::Record;
+use super::SAME_LENGTH;
 use crate::linalg::{Matrix, Vector};
 use crate::system::Homotopy;
-use crate::track::full::{Equations, InverseMaker, dot};
+use crate::track::float::{self, Record, SMALLEST_STEP, Tried, doubled};
+use crate::track::full::{Equations, InverseMaker, Local, ORDER, dot};
 use crate::track::{Control, Options, Outcome, Status, Stop, StopKind};
-use std::time::Instant;
 
 /// δmax of RR 8705, section 7.3.1, without a construction plan.
 pub const LARGEST_STEP: f64 = 0.1;
-/// δmin.
-const SMALLEST_STEP: f64 = 1e-10;
 /// The paper does not say when a correction has succeeded; this is ours, if none is asked for.
 const TOLERANCE: f64 = 1e-8;
 const MAX_CORRECTIONS: usize = 5;
@@ -22,20 +20,19 @@ const DIFFERENCE: f64 = 1.5e-8;
 ///
 /// `homotopy` should have the unit 1, as the paper's steps are in the problem's lengths.
 pub fn track(homotopy: &Homotopy, options: &Options, control: &mut Control) -> Outcome {
-    let clock = Instant::now();
+    let mut record = Record::new();
     let equations = Equations::new(homotopy);
-    let mut record = Record::new(&equations);
-    let status = match Paper::new(homotopy, &equations).run(options, control, &mut record) {
-        Ok(()) => Status::Closed,
-        Err(reason) => Status::Stopped(reason),
-    };
-    record.into_outcome(homotopy, status, clock.elapsed().as_secs_f64())
+    let run = Paper::new(homotopy, &equations).run(options, control, &mut record);
+    let status = run.map_or_else(Status::Stopped, |()| Status::Closed);
+    record.into_outcome(homotopy, status, SAME_LENGTH)
 }
 
 struct Paper<'a> {
     homotopy: &'a Homotopy,
     equations: &'a Equations,
     inverter: InverseMaker,
+    /// Corrects solutions.
+    solution: Local<{ ORDER + 1 }>,
     inverse: Matrix,
     values: Vec<f64>,
     f: Vector,
@@ -54,6 +51,7 @@ impl<'a> Paper<'a> {
             homotopy,
             equations,
             inverter: equations.inverter(),
+            solution: Local::new(equations),
             inverse: Matrix::zeros(n, n),
             values: vec![0.0; equations.bordered_pattern().entries()],
             f: vector(),
@@ -125,42 +123,32 @@ impl<'a> Paper<'a> {
         let unit = self.homotopy.unit;
         let largest = options.step_in(unit).unwrap_or(LARGEST_STEP);
         let tolerance = options.tolerance_in(unit).unwrap_or(TOLERANCE);
-        let mut step = largest;
-        loop {
+        let may_try = |step: f64, _| step >= SMALLEST_STEP;
+        let stuck = float::follow(largest, may_try, |step, _| {
             for i in 0..n {
                 self.next[i] = self.tangent[i].mul_add(step, self.z[i]);
             }
             if !self.correct(tolerance) {
                 record.rejected += 1;
-                if step < 2.0 * SMALLEST_STEP {
-                    let words = format!(
-                        "the correction fails at the smallest step, {:.1e}, {}",
-                        step * unit,
-                        record.place(self.z[m])
-                    );
-                    return Err(Stop::new(StopKind::NoStep, words));
-                }
-                step *= 0.5;
-                continue;
+                return Ok(Tried::Failed("the correction fails"));
             }
             self.set_tangent();
             record.steps += 1;
             record.meet(self.next[m]);
             self.look_for_solution(record);
-            let homotopy_length =
-                |a: &Vector, b: &Vector| (0..n).map(|i| (a[i] - b[i]).powi(2)).sum::<f64>().sqrt();
-            record.length += homotopy_length(&self.z, &self.next);
+            record.length += distance(&self.z[..n], &self.next);
             // The hyperplane t = 0 was crossed near the sketch, in the direction of the start.
             if record.steps > 1 && self.passed(&sketch, &direction, step) {
-                return Ok(());
+                return Ok(Tried::Closed);
             }
             std::mem::swap(&mut self.z, &mut self.next);
             std::mem::swap(&mut self.tangent, &mut self.next_tangent);
-            if 2.0 * step <= largest {
-                step *= 2.0;
-            }
             record.go_on(self.z[m], options, control)?;
-        }
+            Ok(Tried::Taken(doubled(step, largest)))
+        })?;
+        stuck.map_or(Ok(()), |stuck| {
+            Err(record.stuck(self.homotopy, self.z[m], stuck))
+        })
     }
 
     /// Newton–Raphson in the hyperplane normal to the tangent.
@@ -210,16 +198,19 @@ impl<'a> Paper<'a> {
         }
         // Where the interpolated point is too far off, the solution is lost: the paper's tracker
         // has no other way either.
-        let _ = record.solution(self.equations, &mut self.inverter, &self.shifted);
+        let system = (self.equations, &mut self.inverter);
+        let _ = record.solution(system, &mut self.solution, &self.shifted);
     }
 
     fn passed(&self, sketch: &[f64], direction: &[f64], step: f64) -> bool {
         let (m, n) = (self.equations.m, self.equations.n());
         let crossed = (self.z[m] < 0.0) != (self.next[m] < 0.0);
-        let away = (0..n)
-            .map(|i| (self.next[i] - sketch[i]).powi(2))
-            .sum::<f64>()
-            .sqrt();
+        let away = distance(&self.next[..n], sketch);
         crossed && away <= 1.5 * step && dot(&self.next_tangent[..n], &direction[..n]) > 0.0
     }
+}
+
+fn distance(a: &[f64], b: &[f64]) -> f64 {
+    let pairs = a.iter().zip(b);
+    pairs.map(|(x, y)| (x - y).powi(2)).sum::<f64>().sqrt()
 }

@@ -1,18 +1,17 @@
 //! Predictor and corrector with steps chosen from the corrector's contraction.
 
-use super::Record;
-use super::crossing::Crossing as FlatCrossing;
+use super::crossing::{Crossing as FlatCrossing, distance};
 use super::open::{Ends, Halt, endless, follow_both_ways};
 use crate::linalg::{Matrix, Vector};
 use crate::places::array;
 use crate::system::Homotopy;
 use crate::track::ends::ENDLESS;
 use crate::track::events::{Crossing, TimeAlong, halved};
+use crate::track::float::{self, Record, SMALLEST_STEP, Tried};
 use crate::track::full::{
-    CrossingRoom, Equations, Local, ORDER, Preconditioner, dot, first_normal, path_length,
+    CrossingRoom, Equations, Local, ORDER, Preconditioner, dot, first_normal, path_length, sketch,
 };
 use crate::track::{Control, Options, Outcome, Stop, StopKind};
-use std::time::Instant;
 
 /// Points of the path are corrected until the last correction is below this, in the homotopy's
 /// unit, if nothing else is asked for; the next would be smaller still by the contraction.
@@ -30,17 +29,13 @@ const LEAST_COSINE: f64 = 0.8;
 const APART: f64 = 1e-3;
 /// The first step, in the homotopy's unit.
 const FIRST_STEP: f64 = 0.01;
-/// Steps below this end the run.
-const SMALLEST_STEP: f64 = 1e-10;
 
 /// Follows the path in the full space in floating point.
 pub fn track(homotopy: &Homotopy, options: &Options, control: &mut Control) -> Outcome {
-    let clock = Instant::now();
+    let record = Record::new();
     let equations = Equations::new(homotopy);
-    let mut maker = equations.inverter();
-    let system = (&equations, &mut maker);
-    let (status, record) = follow_both_ways::<Matrix>(homotopy, system, options, control);
-    record.into_outcome(homotopy, status, clock.elapsed().as_secs_f64())
+    let system = (&equations, &mut equations.inverter());
+    follow_both_ways::<Matrix>(homotopy, system, options, control, record)
 }
 
 /// Follows the path one way with any preconditioner. The error: where and why it ended before it was back.
@@ -49,17 +44,14 @@ pub fn follow<Y: Preconditioner>(
     (equations, inverter): (&Equations, &mut Y::Maker),
     options: &Options,
     control: &mut Control,
-    record: &mut Record<Y>,
+    record: &mut Record,
 ) -> Result<(), Halt> {
     let (m, n) = (equations.m, equations.n());
     let tolerance = options
         .tolerance_in(homotopy.unit)
         .unwrap_or(POINT_TOLERANCE);
     let (mut now, mut next) = (Path::<Y>::new(equations), Path::<Y>::new(equations));
-    let mut sketch = equations.vector();
-    for (x, exact) in sketch.iter_mut().zip(homotopy.sketch_of_unknowns()) {
-        *x = exact.mid();
-    }
+    let sketch = sketch(homotopy, equations);
     now.z[0].copy_from_slice(&sketch);
     first_normal(equations, inverter, &mut now, options.reverse).map_err(|_| {
         let singular = || "the sketch is a singular point of its path".to_owned();
@@ -78,24 +70,10 @@ pub fn follow<Y: Preconditioner>(
     let located = tolerance.max(2.0 * SMALLEST_STEP);
     let longest = options.step_in(homotopy.unit).unwrap_or(f64::INFINITY);
     let mut previous: Option<Vector> = None;
-    let mut events = Events::new(equations, tolerance);
+    let mut events = Events::<Y>::new(equations, tolerance);
     let mut crossing = FlatCrossing::new(homotopy);
-    let mut step = FIRST_STEP.min(longest);
-    let mut failure = "";
-    loop {
-        if step < SMALLEST_STEP {
-            let words = format!(
-                "{failure} at the smallest step, {:.1e}, {}{}",
-                step * homotopy.unit,
-                record.place(now.z[0][m]),
-                homotopy.remark_on_lengths(now.z[0][m])
-            );
-            let stop = Stop::new(StopKind::NoStep, words);
-            return Err(match &ends {
-                Some(ends) => ends.stuck(equations, (&now.z[0], &now.normal), stop),
-                None => stop.into(),
-            });
-        }
+    let may_try = |step: f64, _| step >= SMALLEST_STEP;
+    let stuck = float::follow(FIRST_STEP.min(longest), may_try, |step, _| {
         now.predict(step, previous.as_deref(), &mut next.z[0], &mut next.normal);
         let refined = next.refine(equations, inverter, tolerance, 6).is_ok()
             && next.contraction <= LARGEST_CONTRACTION
@@ -113,23 +91,17 @@ pub fn follow<Y: Preconditioner>(
             && step <= located
         {
             let words = format!("{name} goes to zero {}", record.place(now.z[0][m]));
-            let end = ends.undefined(&now.z[0], &next.z[0], &words);
-            return Err(Halt {
-                stop: Stop::new(StopKind::Undefined, words),
-                end: Some(Box::new(end)),
-            });
+            return Err(ends.undefined(&now.z[0], &next.z[0], words));
         }
         let seen = match refined {
             false => Err("the corrector fails"),
             true if passed.is_some() => Err("something goes to zero"),
             true if turned => Err("the path turns too much"),
-            true => events.between(equations, inverter, &now, &next, step, record),
+            true => events.between((equations, inverter), &now, &next, step, record),
         };
         if let Err(reason) = seen {
-            failure = reason;
             record.rejected += 1;
-            step *= 0.5;
-            continue;
+            return Ok(Tried::Failed(reason));
         }
         record.steps += 1;
         record.meet(next.z[0][m]);
@@ -137,12 +109,12 @@ pub fn follow<Y: Preconditioner>(
             && record.steps > 1
         {
             record.length += events.length(&now, &next, step, at, homotopy.unit);
-            return Ok(());
+            return Ok(Tried::Closed);
         }
         record.length += events.length(&now, &next, step, 0.0, homotopy.unit);
         // The contraction grows with the (ORDER + 2)-nd power of the step.
         let growth = (CONTRACTION / next.contraction.max(1e-300)).powf(1.0 / (ORDER + 2) as f64);
-        step = (step * growth.clamp(0.5, 1.6)).min(longest);
+        let mut step = (step * growth.clamp(0.5, 1.6)).min(longest);
         match &mut previous {
             Some(previous) => previous.copy_from_slice(&now.z[0]),
             None => previous = Some(now.z[0].clone()),
@@ -176,25 +148,37 @@ pub fn follow<Y: Preconditioner>(
             return Err(endless(ends.as_ref(), &now.z[0], words));
         }
         record.go_on(now.z[0][m], options, control)?;
-    }
+        Ok(Tried::Taken(step))
+    })?;
+    let Some(stuck) = stuck else {
+        return Ok(());
+    };
+    let stop = record.stuck(homotopy, now.z[0][m], stuck);
+    Err(match &ends {
+        Some(ends) => ends.stuck(equations, (&now.z[0], &now.normal), stop),
+        None => stop.into(),
+    })
 }
 
 /// A point of the path with its expansion.
 type Path<Y> = Local<{ ORDER + 1 }, Y>;
 
 /// Finds what happens between two points of the path.
-struct Events {
+struct Events<Y> {
     tolerance: f64,
+    /// Corrects solutions.
+    solution: Path<Y>,
     crossings: Vec<Crossing>,
     room: CrossingRoom,
     scratch: Vector,
     other: Vector,
 }
 
-impl Events {
+impl<Y: Preconditioner> Events<Y> {
     fn new(equations: &Equations, tolerance: f64) -> Self {
         Events {
             tolerance,
+            solution: Path::new(equations),
             crossings: Vec::new(),
             room: CrossingRoom::new(equations),
             scratch: equations.vector(),
@@ -205,14 +189,13 @@ impl Events {
     /// Records the solutions between two points: the first half of the way is read off the
     /// expansion at one, the second off the other. The error is the reason, for people: these do not
     /// meet in the middle, or the solutions could not be separated.
-    fn between<Y: Preconditioner>(
+    fn between(
         &mut self,
-        equations: &Equations,
-        inverter: &mut Y::Maker,
+        (equations, inverter): (&Equations, &mut Y::Maker),
         now: &Path<Y>,
         next: &Path<Y>,
         step: f64,
-        record: &mut Record<Y>,
+        record: &mut Record,
     ) -> Result<(), &'static str> {
         const UNDECIDED: &str = "it cannot be told whether the path meets t = 1";
         // The expansions are off by 2^-(ORDER + 1) of the prediction's error at half the way, and
@@ -222,8 +205,7 @@ impl Events {
         let back = self.middle(now, next, half);
         // At hairpins that says little of the expansions themselves, as the prediction is better.
         next.at(back, &mut self.other);
-        let ends = self.scratch.iter().zip(self.other.iter());
-        let apart = ends.fold(0.0, |max: f64, (x, y)| max.max((x - y).abs()));
+        let apart = distance(&self.scratch, &self.other);
         if apart > APART * step {
             return Err("the expansions at a step's two ends do not meet");
         }
@@ -237,9 +219,10 @@ impl Events {
             for k in 0..self.crossings.len() {
                 let (a, b) = self.crossings[k].between;
                 let (at, room) = (0.5 * (a + b), &mut self.room);
+                let (guess, solution) = (&mut self.scratch, &mut self.solution);
                 local
-                    .crossing(equations, at, 1.0, room, &mut self.scratch)
-                    .and_then(|()| record.solution(equations, inverter, &self.scratch))
+                    .crossing(equations, at, 1.0, room, guess)
+                    .and_then(|()| record.solution((equations, &mut *inverter), solution, guess))
                     .ok_or(UNDECIDED)?;
             }
             let (_, (slope_low, slope_high)) = time.bounds(from, to);
@@ -252,20 +235,13 @@ impl Events {
 
     /// The parameter at `next` of the point where the expansion at `now` is left for its own: the
     /// two have different normals, so it is not just the rest of the step.
-    fn middle<Y: Preconditioner>(&mut self, now: &Path<Y>, next: &Path<Y>, half: f64) -> f64 {
+    fn middle(&mut self, now: &Path<Y>, next: &Path<Y>, half: f64) -> f64 {
         now.at(half, &mut self.scratch);
         next.parameter_of(&self.scratch)
     }
 
     /// The path's length from `now` to the parameter `at` of `next`.
-    fn length<Y: Preconditioner>(
-        &mut self,
-        now: &Path<Y>,
-        next: &Path<Y>,
-        step: f64,
-        at: f64,
-        unit: f64,
-    ) -> f64 {
+    fn length(&mut self, now: &Path<Y>, next: &Path<Y>, step: f64, at: f64, unit: f64) -> f64 {
         let back = self.middle(now, next, 0.5 * step);
         path_length(now, 0.0, 0.5 * step, unit, &mut self.scratch)
             + path_length(next, back, at, unit, &mut self.scratch)
@@ -273,7 +249,7 @@ impl Events {
 
     /// Whether the path, followed in `direction`, passed the sketch between two points: at which
     /// parameter of `next`, if so.
-    fn passes<Y: Preconditioner>(
+    fn passes(
         &mut self,
         sketch: &[f64],
         direction: &[f64],
@@ -298,9 +274,7 @@ impl Events {
         } else {
             next.at(at, &mut self.scratch);
         }
-        let away = (0..n).fold(0.0, |max: f64, i| {
-            max.max((self.scratch[i] - sketch[i]).abs())
-        });
+        let away = distance(&self.scratch[..n], sketch);
         (away <= 10.0 * next.first_correction + 100.0 * self.tolerance.max(POINT_TOLERANCE))
             .then_some(at)
     }

@@ -69,14 +69,7 @@ impl ReducedTest {
         let (along, error, extent) = from_middle(local, &tube.weights[..n], s, out, |_| 0.0);
         (self.f[m], self.hidden[m]) = (along, error);
         let radius = self.radius_from_defect(equations, &local.y, tube.proof.q)?;
-        if !(extent < tube.proof.r && radius < tube.proof.r) {
-            return None;
-        }
-        for i in 0..n {
-            out.radius[i] = round_up(radius * tube.weights[i], 1);
-        }
-        tube.exit_between = (s, s);
-        Some(())
+        tube.hold_exit(extent, radius)
     }
 
     /// F at the middle of a box, into `f`, and if wanted how far the exact value may be, into `hidden`.

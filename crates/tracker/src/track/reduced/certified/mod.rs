@@ -28,7 +28,7 @@ use crate::track::full::MAX_DEGREE;
 
 pub use test::ReducedTest;
 #[cfg(test)]
-pub use {crate::track::reduced::structure::layout::Block, bounds::Bounds};
+pub use {crate::track::reduced::structure::layout::Block, bounds::Bounds, frame::Reduction};
 
 /// The tubes' polynomials have so many coefficients.
 pub const COEFFICIENTS: usize = 9;

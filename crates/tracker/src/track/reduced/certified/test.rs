@@ -45,10 +45,10 @@ use crate::track::certified::shortfall::Shortfall;
 use crate::track::certified::tracker::Test;
 use crate::track::ends::LONGEST;
 use crate::track::full::{Differences, Equations, Lengths, RefineError};
+use crate::track::reduced::plans::Plans;
 use crate::track::reduced::structure::elimination::{Elimination, Maker};
-use crate::track::reduced::structure::layout::{Layout, Order};
+use crate::track::reduced::structure::layout::Order;
 use crate::track::{Driving, Options, Space};
-use std::sync::Arc;
 #[cfg(test)]
 use {super::speed::speed, crate::interval::rounding::round_up};
 
@@ -72,8 +72,8 @@ pub struct ReducedTest {
     pub(super) shape: Shape,
     pub(super) sides: Sides,
     /// What bounds Φ(0), row by row, and all bounds, of the last attempt.
-    pub(super) defect: Vector,
-    pub(super) last: Bounds,
+    pub(in crate::track) defect: Vector,
+    pub(in crate::track) last: Bounds,
     /// The half length of the tube before, and the reach of its Taylor polynomial.
     expected: f64,
     reach: f64,
@@ -88,11 +88,7 @@ pub struct ReducedTest {
     pub(super) step: Vector,
     /// A very short tube, see `exit.rs`.
     short: Option<Box<Tubes>>,
-    last_layout: Option<Arc<Layout>>,
-    plan_changes: usize,
-    tubes: usize,
-    driving: usize,
-    most_driving: usize,
+    plans: Plans,
 }
 
 impl Test<COEFFICIENTS> for ReducedTest {
@@ -120,11 +116,7 @@ impl Test<COEFFICIENTS> for ReducedTest {
             hidden: equations.vector(),
             step: equations.vector(),
             short: None,
-            last_layout: None,
-            plan_changes: 0,
-            tubes: 0,
-            driving: 0,
-            most_driving: 0,
+            plans: Plans::default(),
         }
     }
 
@@ -217,17 +209,7 @@ impl Test<COEFFICIENTS> for ReducedTest {
     fn accept(&mut self, tube: &Tubes) {
         self.expected = tube.proof.h;
         self.reach = reach(&tube.local);
-        let layout = &tube.local.y.elimination.layout;
-        if let Some(last) = &self.last_layout
-            && !Arc::ptr_eq(last, layout)
-        {
-            self.plan_changes += 1;
-        }
-        self.last_layout = Some(layout.clone());
-        let driving = layout.keys() - 1;
-        self.tubes += 1;
-        self.driving += driving;
-        self.most_driving = self.most_driving.max(driving);
+        self.plans.add(&tube.local.y.elimination.layout);
     }
 
     fn reject(&mut self) {
@@ -253,21 +235,12 @@ impl Test<COEFFICIENTS> for ReducedTest {
     }
 
     fn plans(&self) -> (usize, Driving) {
-        let driving = Driving {
-            average: self.driving as f64 / self.tubes.max(1) as f64,
-            max: self.most_driving,
-        };
-        (self.plan_changes, driving)
+        (self.plans.changes, self.plans.driving())
     }
 }
 
 #[cfg(test)]
 impl ReducedTest {
-    /// The bounds of the last proof.
-    pub fn stated(&self) -> &Bounds {
-        &self.last
-    }
-
     /// The bounds for |s| ≤ `h`, whether or not they prove anything, the series being made anew.
     pub fn bounds_at(&mut self, equations: &Equations, tube: &mut Tubes, h: f64) -> Option<Bounds> {
         let (width, series) = (tube.local.y.elimination.reduced.width, &mut self.series);
@@ -276,11 +249,6 @@ impl ReducedTest {
         let n = equations.n();
         tube.weights[..n].copy_from_slice(&self.shape.omega[..n]);
         Some(bounds)
-    }
-
-    /// What bounds Φ(0) row by row.
-    pub fn defect(&self) -> &Vector {
-        &self.defect
     }
 
     /// The weights of the unknowns, for what is proved next.

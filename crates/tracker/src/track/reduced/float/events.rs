@@ -3,56 +3,40 @@
 use super::Tracker;
 use super::cubic::Passages;
 use super::path_point::{Piece, distance, dot};
+use crate::linalg::Vector;
 
 /// Points nearer than this, relative to the figure, are the same.
 const SAME: f64 = 2e-8;
 
-/// What was found on a piece of the path.
-pub(super) enum Events {
-    /// Solutions, if any, were recorded; the path goes on.
-    None,
-    /// The piece passes through the sketch, at this arc length: the loop is closed.
-    Closed(f64),
-    /// Cannot be told: the piece is too long.
-    Unclear,
-}
-
 impl Tracker<'_> {
-    /// Looks at the piece from the current point to the next, `h` long. `error` is about how
-    /// far it may be from the cubic.
-    pub(super) fn look_between(&mut self, h: f64, error: f64) -> Events {
+    /// Records the solutions on the piece from the current point to the next, `h` long. `error` is about how
+    /// far it may be from the cubic. Tells at which arc length it passes through the sketch, if it does: the loop is
+    /// closed. The error: that cannot be told, as the piece is too long.
+    pub(super) fn look_between(&mut self, h: f64, error: f64) -> Result<Option<f64>, ()> {
         let piece = Piece::new(&self.current, &self.next, h);
         let t = piece.t();
         let reach = |value: f64| {
             let near = (t.x[0] - value).abs().min((t.x[1] - value).abs());
             near <= h
         };
-        let mut end = h;
-        let mut closed = false;
-        if reach(0.0) {
-            match self.passes_sketch(h, error) {
-                Ok(Some(s)) => (end, closed) = (s, true),
-                Ok(None) => {}
-                Err(()) => return Events::Unclear,
-            }
-        }
+        let end = match reach(0.0) {
+            true => self.passes_sketch(h, error)?,
+            false => None,
+        };
         if reach(1.0) {
             let Passages::At(passages, count) = t.passages(1.0, error) else {
-                return Events::Unclear;
+                return Err(());
             };
-            let known = self.solutions.len();
-            for &s in passages[..count].iter().filter(|&&s| s <= end) {
+            let known = self.record.found.len();
+            let last = end.unwrap_or(h);
+            for &s in passages[..count].iter().filter(|&&s| s <= last) {
                 if !self.record_solution(s, h, error) {
-                    self.solutions.truncate(known);
-                    return Events::Unclear;
+                    self.record.found.truncate(known);
+                    return Err(());
                 }
             }
         }
-        if closed {
-            Events::Closed(end)
-        } else {
-            Events::None
-        }
+        Ok(end)
     }
 
     /// Finds the solution near arc length `s` of the piece in full precision, at t = 1.
@@ -70,8 +54,11 @@ impl Tracker<'_> {
         // small error of the cubic shifts the place by its square root.
         let near = distance(&found, guess) <= (10.0 * error + 0.1 * h).min(0.5 * h) + 1e-9;
         if converged && near {
-            found.truncate(places);
-            self.solutions.push(found);
+            let free = &self.homotopy.gauge.place;
+            let mut unknowns = Vector::zeros(free.len() + 1);
+            let values = free.iter().chain([&places]).map(|&place| found[place]);
+            unknowns.iter_mut().zip(values).for_each(|(x, z)| *x = z);
+            self.record.found.push(unknowns);
         }
         converged && near
     }

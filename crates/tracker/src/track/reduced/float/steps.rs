@@ -1,9 +1,10 @@
-//! The default way of stepping: adaptive, cubic predictor, exact derivatives.
+//! Algorithm 1, and the default way of stepping in it: adaptive, cubic predictor, exact derivatives.
 
-use super::events::Events;
+use super::Tracker;
+use super::paper::LONGEST_STEP;
 use super::path_point::{Piece, distance};
-use super::{SMALLEST_STEP, Tracker, UNCLEAR};
-use crate::track::{Control, Status, StopKind};
+use crate::track::float::{self, SMALLEST_STEP, Tried};
+use crate::track::{Control, Preset, Stop, StopKind};
 
 /// The first step from the sketch, while there is no history.
 const FIRST_STEP: f64 = 0.01;
@@ -32,20 +33,16 @@ const RENEW_AFTER: usize = 4;
 /// Steps between two looks for instructions to restore.
 const RESTORE_EVERY: usize = 4;
 
-/// How the stepping goes.
-struct Pace {
-    h: f64,
-    longest: f64,
-    /// Changes of plan since the last point.
-    looks: usize,
-    /// Failures since the last point.
-    failures: usize,
-}
+/// Why a step fails where no point is found,
+const FAILED: &str = "no step succeeds";
+/// and where what lies before it is left open.
+const UNCLEAR: &str = "a solution or the sketch cannot be isolated, as if it were singular,";
 
-enum Attempt {
-    /// `next` is a point, `length` away, `error` from its prediction, with the tangent turned
-    /// by the angle `turn`.
-    Point { length: f64, error: f64, turn: f64 },
+/// What came of predicting and correcting a point.
+pub(super) enum Attempt {
+    /// `next` is a point, `length` away; the piece up to it is off its cubic by at most about `margin`. The step after
+    /// it may be `then` long.
+    Point { length: f64, margin: f64, then: f64 },
     /// The predicted figure is near or beyond a boundary configuration.
     Boundary,
     /// No point found, or one that cannot be trusted.
@@ -53,91 +50,87 @@ enum Attempt {
 }
 
 impl Tracker<'_> {
-    /// Algorithm 1 with adaptive steps.
-    pub(super) fn follow(&mut self, control: &mut Control) -> Status {
-        let longest = self
-            .options
-            .step_in(self.homotopy.unit)
-            .unwrap_or(f64::INFINITY);
-        let mut pace = Pace {
-            h: FIRST_STEP.min(longest),
-            longest,
-            looks: 0,
-            failures: 0,
+    /// Algorithm 1, with steps as the preset says.
+    pub(super) fn follow(&mut self, control: &mut Control) -> Result<(), Stop> {
+        let longest = self.options.step_in(self.homotopy.unit);
+        let (first, longest) = match self.options.preset {
+            Preset::Default => (FIRST_STEP, longest.unwrap_or(f64::INFINITY)),
+            Preset::Paper => (f64::INFINITY, longest.unwrap_or(LONGEST_STEP)),
         };
-        loop {
-            if let Err(status) = self.step(&mut pace, control) {
-                return status;
-            }
-        }
+        let may_try = |h: f64, failures| failures == 0 || h >= SMALLEST_STEP;
+        let stuck = float::follow(first.min(longest), may_try, |h, failures| {
+            self.step(h, longest, failures, control)
+        })?;
+        let Some(stuck) = stuck else {
+            return Ok(());
+        };
+        let stop = self.record.stuck(self.homotopy, self.current.t(), stuck);
+        Err(match stuck.why {
+            UNCLEAR => Stop {
+                kind: StopKind::Undecided,
+                ..stop
+            },
+            _ => stop,
+        })
     }
 
-    /// One attempt at a step, and what follows from it. The error is how the run ends.
-    fn step(&mut self, pace: &mut Pace, control: &mut Control) -> Result<(), Status> {
-        if self.steps >= self.options.max_steps {
-            return Err(self.stopped(StopKind::Limit, "the limit on steps is reached"));
-        }
-        let (length, error, turn) = match self.attempt(pace.h) {
-            Attempt::Point {
-                length,
-                error,
-                turn,
-            } => (length, error, turn),
-            Attempt::Boundary if pace.looks < LOOKS_AHEAD => {
-                pace.looks += 1;
-                let changed = self.change_plan(true, f64::INFINITY)?;
-                return if changed { Ok(()) } else { self.reject(pace) };
-            }
-            Attempt::Boundary | Attempt::Failed => return self.reject(pace),
-        };
-        // Looking between the points evaluates the plan elsewhere.
-        let contraction = self.corrector.contraction;
-        let near = self.evaluation.is_near_boundary() || self.evaluation.is_out_of_order();
-        match self.look_between(length, 0.25 * error + 1e-9) {
-            Events::None => self.advance(length, length),
-            Events::Closed(s) => {
-                self.advance(length, s);
-                return Err(Status::Closed);
-            }
-            Events::Unclear => {
-                return self
-                    .reject(pace)
-                    .map_err(|_| self.stopped(StopKind::Undecided, UNCLEAR));
-            }
-        }
-        if near || self.steps.is_multiple_of(RESTORE_EVERY) && self.plan_is_restorable(RESTORE) {
-            self.change_plan(false, RESTORE)?;
-        }
-        if control.is_cancelled(self.progress()) {
-            return Err(self.stopped(StopKind::Interrupted, "interrupted"));
-        }
-        // The predictor's error grows like h⁴, and with it what the corrector's contraction is
-        // lacking; the turn like h.
-        let by_error = (0.5 * ERROR * length / error.max(1e-300)).sqrt().sqrt();
-        let by_contraction = (CONTRACTION / contraction.max(1e-300)).sqrt().sqrt();
-        let growth = by_error
-            .min(by_contraction)
-            .min(0.8 * TURN / turn.max(1e-300))
-            .clamp(0.5, 2.0);
-        pace.h = (pace.h * growth).min(pace.longest);
-        (pace.looks, pace.failures) = (0, 0);
-        Ok(())
-    }
-
-    fn reject(&mut self, pace: &mut Pace) -> Result<(), Status> {
-        self.rejected += 1;
-        pace.failures += 1;
-        pace.h *= 0.5;
-        if pace.h < SMALLEST_STEP {
-            return Err(self.no_step());
-        }
-        if pace.failures == RENEW_AFTER {
+    /// One attempt at a step, and what follows from it. The error is why the run ends.
+    fn step(
+        &mut self,
+        h: f64,
+        longest: f64,
+        failures: usize,
+        control: &mut Control,
+    ) -> Result<Tried, Stop> {
+        let is_ours = self.options.preset == Preset::Default;
+        if is_ours && failures == RENEW_AFTER {
             // The point's own tangent may be what is wrong.
             self.settle()?;
         }
-        Ok(())
+        let attempt = match is_ours {
+            true => self.attempt(h),
+            false => self.attempt_as_in_the_paper(h, longest),
+        };
+        let (length, margin, then) = match attempt {
+            Attempt::Point {
+                length,
+                margin,
+                then,
+            } => (length, margin, then),
+            Attempt::Boundary if self.looks < LOOKS_AHEAD => {
+                self.looks += 1;
+                return match self.change_plan(true, f64::INFINITY)? {
+                    true => Ok(Tried::Again),
+                    false => self.failed(FAILED),
+                };
+            }
+            Attempt::Boundary | Attempt::Failed => return self.failed(FAILED),
+        };
+        // Looking between the points evaluates the plan elsewhere.
+        let near = self.evaluation.is_near_boundary() || self.evaluation.is_out_of_order();
+        let Ok(end) = self.look_between(length, margin) else {
+            return self.failed(UNCLEAR);
+        };
+        self.advance(length, end.unwrap_or(length));
+        if end.is_some() {
+            return Ok(Tried::Closed);
+        }
+        let restore = if is_ours { RESTORE } else { 1.0 };
+        let is_due = is_ours && self.record.steps.is_multiple_of(RESTORE_EVERY);
+        if near || is_due && self.plan_is_restorable(restore) {
+            self.change_plan(false, restore)?;
+        }
+        self.record.go_on(self.current.t(), self.options, control)?;
+        self.looks = 0;
+        Ok(Tried::Taken(then.min(longest)))
     }
 
+    fn failed(&mut self, why: &'static str) -> Result<Tried, Stop> {
+        self.record.rejected += 1;
+        Ok(Tried::Failed(why))
+    }
+
+    /// A point on the cubic through the last two, corrected with exact derivatives.
     fn attempt(&mut self, h: f64) -> Attempt {
         match self.behind {
             Some(behind) => Piece::new(&self.previous, &self.current, behind)
@@ -163,14 +156,24 @@ impl Tracker<'_> {
         }
         let error = distance(&self.next.z, &self.predicted);
         let turn = distance(&self.next.tangent, &self.current.tangent);
-        if error <= ERROR * h && turn <= TURN {
-            Attempt::Point {
-                length: self.arc_length(),
-                error,
-                turn,
-            }
-        } else {
-            Attempt::Failed
+        // Whatever is no number is none.
+        if !(error <= ERROR * h && turn <= TURN) {
+            return Attempt::Failed;
+        }
+        // The predictor's error grows like h⁴, and with it what the corrector's contraction is
+        // lacking; the turn like h.
+        let length = self.arc_length();
+        let by_error = (0.5 * ERROR * length / error.max(1e-300)).sqrt().sqrt();
+        let contraction = self.corrector.contraction;
+        let by_contraction = (CONTRACTION / contraction.max(1e-300)).sqrt().sqrt();
+        let growth = by_error
+            .min(by_contraction)
+            .min(0.8 * TURN / turn.max(1e-300))
+            .clamp(0.5, 2.0);
+        Attempt::Point {
+            length,
+            margin: 0.25 * error + 1e-9,
+            then: h * growth,
         }
     }
 }

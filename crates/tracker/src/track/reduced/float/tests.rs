@@ -141,7 +141,9 @@ fn stops_when_told_to() {
             ..options()
         },
     );
-    assert!(matches!(&limited.status, Status::Stopped(why) if why.contains("limit on steps")));
+    assert!(
+        matches!(&limited.status, Status::Stopped(why) if why.contains("the limit of 3000 steps"))
+    );
     assert!(limited.steps == 3000 && !limited.solutions.is_empty());
 
     let flag = AtomicBool::new(true);

@@ -176,7 +176,7 @@ impl Order {
                 block.insert((axis as u8, point.unknowns[axis]), point.distances[best]);
             }
             for (candidate, distance) in rows.iter().zip(&point.distances) {
-                if !candidate.is_taken() {
+                if !candidate.taken {
                     layout.ignored.push(distance.0);
                 }
             }

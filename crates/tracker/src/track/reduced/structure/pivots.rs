@@ -10,7 +10,8 @@ pub type Wide = [f64; WIDEST];
 #[derive(Debug, Clone)]
 pub struct Candidate {
     row: Wide,
-    taken: bool,
+    /// Whether it has a pivot.
+    pub taken: bool,
 }
 
 impl Candidate {
@@ -20,11 +21,6 @@ impl Candidate {
             row: divided(row, long),
             taken: false,
         }
-    }
-
-    /// Whether it has a pivot.
-    pub fn is_taken(&self) -> bool {
-        self.taken
     }
 
     /// The square of what is left of it, and the place of the pivot, of which it has at most √size times as much: where

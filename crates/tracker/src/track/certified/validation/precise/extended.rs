@@ -27,21 +27,23 @@ struct Tally {
 }
 
 fn check_tubes(
-    problem: &Problem,
+    problem: Problem,
     (tubes, rounds): (usize, usize),
     random: &mut Random,
     (ratios, tally): (&mut Ratios, &mut Tally),
 ) {
-    let homotopy = Homotopy::new(problem).expect("a gauge");
-    let figure = Figure::new(problem, &homotopy);
+    let Case {
+        problem,
+        homotopy,
+        figure,
+    } = Case::new(problem);
     let mut workshop = Workshop::new(&homotopy, f64::INFINITY);
     workshop.equations.extend(&homotopy);
     workshop.test.precision.extended = true;
     let chain = workshop.chain(&homotopy, 400);
     println!("{}: {} tubes", problem.name, chain.len());
     assert!(!chain.is_empty(), "{}", problem.name);
-    let stride = (chain.len() / tubes).max(1);
-    for k in (0..chain.len()).step_by(stride) {
+    for k in spread(&chain, tubes) {
         let local = &chain[k].tube.local;
         assert!(local.is_extended);
         tally.low += usize::from(local.low.iter().any(|&x| x != 0.0));
@@ -84,7 +86,7 @@ fn extended_tubes_dominate_exact_values_near_singular_places() {
     };
     for problem in problems(&NAMES) {
         let (counts, out) = ((effort(12), 2), (&mut ratios, &mut tally));
-        check_tubes(&problem, counts, &mut random, out)
+        check_tubes(problem, counts, &mut random, out)
     }
     println!("{tally:?}");
     // Far below what 53 bits can tell.

@@ -192,12 +192,8 @@ fn check_signs(
     seen
 }
 
-fn check(
-    (problem, homotopy): (&Problem, &Homotopy),
-    random: &mut Random,
-    ratios: &mut Ratios,
-) -> (bool, usize) {
-    let figure = Figure::new(problem, homotopy);
+fn check(case: &Case, random: &mut Random, ratios: &mut Ratios) -> (bool, usize) {
+    let (homotopy, figure) = (&case.homotopy, &case.figure);
     let start = crate::track::arc::Figure::of_sketch(homotopy);
     let mut arcs = arcs(homotopy.clone(), &Options::certified());
     let run = arcs.follow(&start, &mut Control::default());
@@ -206,12 +202,12 @@ fn check(
     let kept: Vec<_> = kept.map(|o| (o.points.clone(), o.sign)).collect();
     let mut from = exact(&start.centre);
     from.push(Big::of(0.0));
-    let seen = check_signs(&figure, homotopy, (from, run.t.0), &kept);
+    let seen = check_signs(figure, homotopy, (from, run.t.0), &kept);
     let ArcEnd::Limit(fold) = &run.end else {
         return (false, seen);
     };
-    check_box(&figure, fold, random, ratios);
-    check_contraction((&figure, homotopy), fold, random, ratios);
+    check_box(figure, fold, random, ratios);
+    check_contraction((figure, homotopy), fold, random, ratios);
     (true, seen)
 }
 
@@ -219,16 +215,15 @@ fn check(
 fn folds_and_kept_signs_hold_in_256_bits() {
     let mut random = Random::new(1414);
     let (mut ratios, mut folds, mut signs) = (Ratios::default(), 0, 0);
-    let mut all: Vec<(Problem, Homotopy)> = tails(77, 8);
+    let mut all = tails(77, 8);
     for round in 0..24 {
         let dimension = 2 + round % 2;
         let points = dimension + 1 + random.below(3);
         let problem = random_problem(&mut random, dimension, points, 0.3);
-        let homotopy = Homotopy::new(&problem).unwrap();
-        all.push((problem, homotopy));
+        all.push(Case::new(problem));
     }
-    for (problem, homotopy) in &all {
-        let (is_fold, seen) = check((problem, homotopy), &mut random, &mut ratios);
+    for case in &all {
+        let (is_fold, seen) = check(case, &mut random, &mut ratios);
         folds += usize::from(is_fold);
         signs += seen;
     }

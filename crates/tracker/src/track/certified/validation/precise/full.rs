@@ -203,21 +203,20 @@ fn changed(sample: &Sample, kind: usize, equations: &Equations, random: &mut Ran
 }
 
 fn check_problem(
-    (problem, homotopy): (&Problem, &Homotopy),
+    case: &Case,
     (tubes, rounds): (usize, usize),
     random: &mut Random,
     ratios: &mut [Ratios; 5],
 ) {
-    let true_figure = Figure::new(problem, homotopy);
+    let (homotopy, true_figure) = (&case.homotopy, &case.figure);
     let mut workshop = Workshop::new(homotopy, f64::INFINITY);
     let chain = workshop.chain(homotopy, 400);
-    assert!(!chain.is_empty(), "{}", problem.name);
-    let stride = (chain.len() / tubes).max(1);
-    for k in (0..chain.len()).step_by(stride) {
+    assert!(!chain.is_empty(), "{}", case.problem.name);
+    for k in spread(&chain, tubes) {
         let exits = (&chain[k], chain.get(k + 1));
-        check_exit(&mut workshop, &true_figure, exits, &mut ratios[0]).expect("a regular point");
+        check_exit(&mut workshop, true_figure, exits, &mut ratios[0]).expect("a regular point");
         for _ in 0..rounds {
-            check_path(&true_figure, &chain[k], random, &mut ratios[0]).expect("a regular point");
+            check_path(true_figure, &chain[k], random, &mut ratios[0]).expect("a regular point");
         }
         // The same with numbers changed, and lengths of large radii.
         for (kind, ratios) in ratios.iter_mut().enumerate() {
@@ -227,7 +226,7 @@ fn check_problem(
                 let size = 10f64.powf(random.between(-12.0, -4.0));
                 lengthen(&mut workshop.equations, homotopy, size, random)
             });
-            let figure = other.as_ref().unwrap_or(&true_figure);
+            let figure = other.as_ref().unwrap_or(true_figure);
             let h = sample.tube.proof.h * [1.0, 0.1, 1e-3, 1e-5][random.below(4)];
             let (equations, tube) = (&workshop.equations, &sample.tube);
             let norms = workshop
@@ -251,16 +250,10 @@ fn check_problem(
     }
 }
 
-fn check_homotopies(
-    list: impl Iterator<Item = (Problem, Homotopy)>,
-    counts: (usize, usize),
-    seed: u64,
-) {
+fn check_all(list: impl IntoIterator<Item = Case>, tubes: usize, seed: u64) {
     let (mut ratios, mut random) = (<[Ratios; 5]>::default(), Random::new(seed));
-    for (problem, homotopy) in list {
-        let counts = (effort(counts.0), counts.1);
-        let pair = (&problem, &homotopy);
-        check_problem(pair, counts, &mut random, &mut ratios)
+    for case in list {
+        check_problem(&case, (effort(tubes), 2), &mut random, &mut ratios)
     }
     let kinds = ["as they are", "path", "one coefficient", "Y", "lengths"];
     for (kind, ratios) in kinds.iter().zip(&ratios) {
@@ -273,33 +266,32 @@ fn check_homotopies(
 #[test]
 fn full_bounds_dominate_exact_values_of_small_problems() {
     let mut random = Random::new(44);
-    let list: Vec<Problem> = (0..24)
-        .map(|round| {
-            let dimension = 2 + round % 2;
-            let points = dimension + random.below(3);
-            random_problem(&mut random, dimension, points, 0.3)
-        })
-        .collect();
-    check_homotopies(with_homotopies(list), (4, 2), 45);
+    let list = (0..24).map(|round| {
+        let dimension = 2 + round % 2;
+        let points = dimension + random.below(3);
+        Case::new(random_problem(&mut random, dimension, points, 0.3))
+    });
+    check_all(list, 4, 45);
 }
 
 #[test]
 fn full_bounds_dominate_exact_values_of_tails() {
-    check_homotopies(tails(48, 24).into_iter(), (4, 2), 49);
+    check_all(tails(48, 24), 4, 49);
 }
 
 #[test]
 fn full_bounds_dominate_exact_values_of_mixed_kinds() {
-    check_homotopies(mixed(53, 30).into_iter(), (3, 2), 54);
+    check_all(mixed(53, 30), 3, 54);
 }
 
 /// See the test of the same name in the reduced space: t moves alone, with the highest order that ẑ
 /// has, where E' vanishes.
 #[test]
 fn the_bend_counts_to_its_last_order_in_the_full_space() {
-    let (problem, mut ratios) = (triangle(), Ratios::default());
-    let homotopy = Homotopy::new(&problem).expect("a gauge");
-    let figure = Figure::new(&problem, &homotopy);
+    let mut ratios = Ratios::default();
+    let Case {
+        homotopy, figure, ..
+    } = Case::new(triangle());
     let mut workshop = Workshop::new(&homotopy, 1.0);
     let (n, m) = (figure.n, figure.m);
     let mut tube = Tube::new(&workshop.equations);
@@ -336,10 +328,10 @@ fn the_bend_counts_to_its_last_order_in_the_full_space() {
 fn full_bounds_dominate_exact_values() {
     let mut list = problems(&REGULAR);
     list.push(generated(Family::Strip, 31));
-    check_homotopies(with_homotopies(list), (3, 2), 41);
+    check_all(list.into_iter().map(Case::new), 3, 41);
 }
 
 #[test]
 fn full_bounds_dominate_exact_values_near_singular_places() {
-    check_homotopies(with_homotopies(problems(&SINGULAR)), (5, 2), 42);
+    check_all(problems(&SINGULAR).into_iter().map(Case::new), 5, 42);
 }

@@ -47,8 +47,8 @@ fn sketch(problem: &Problem, homotopy: &Homotopy) -> Vec<Big> {
         .collect()
 }
 
-fn check((problem, homotopy): (&Problem, &Homotopy), random: &mut Random, ratios: &mut Ratios) {
-    let figure = Figure::new(problem, homotopy);
+fn check(case: Case, random: &mut Random, ratios: &mut Ratios) {
+    let (homotopy, figure) = (&case.homotopy, &case.figure);
     for (right, e) in homotopy.rights.iter().zip(&figure.e) {
         for k in 0..5 {
             assert!(
@@ -76,7 +76,7 @@ fn check((problem, homotopy): (&Problem, &Homotopy), random: &mut Random, ratios
         assert!(root.is_in(range) || (-root.clone()).is_in(range));
     }
     let m = homotopy.equations;
-    for (place, x) in sketch(problem, homotopy).iter().enumerate() {
+    for (place, x) in sketch(&case.problem, homotopy).iter().enumerate() {
         if homotopy.gauge.variable[place] < m {
             let box_ = homotopy.sketch_box[place];
             assert!(x.is_in(box_), "place {place} of the sketch");
@@ -91,7 +91,7 @@ fn check((problem, homotopy): (&Problem, &Homotopy), random: &mut Random, ratios
     }
 
     // F and J in floats, at points and with directions of any size.
-    check_residual(homotopy, &figure, random, ratios)
+    check_residual(homotopy, figure, random, ratios)
 }
 
 /// What floats may be off, `residual_error` and `jacobian_times_error`.
@@ -160,11 +160,14 @@ fn lengths_sketches_and_residuals_are_enclosed() {
         list.push(random_problem(&mut random, dimension, points, 0.5));
     }
     for problem in &list {
-        if let Ok(homotopy) = Homotopy::new(problem) {
-            check((problem, &homotopy), &mut random, &mut ratios);
+        let plain = Homotopy::new(problem).ok();
+        let plain = plain.map(|homotopy| (problem.clone(), homotopy));
+        if let Some(given) = plain {
+            check(given.into(), &mut random, &mut ratios);
         }
-        if let Some((rest, homotopy)) = Disguised::new(problem, 0.7, &mut random).with_homotopy() {
-            check((&rest, &homotopy), &mut random, &mut ratios);
+        let rest = Disguised::new(problem, 0.7, &mut random).with_homotopy();
+        if let Some(given) = rest {
+            check(given.into(), &mut random, &mut ratios);
         }
     }
     ratios.come_near(&[

@@ -107,12 +107,33 @@ pub const SINGULAR: [&str; 8] = [
     "hard/triple-2",
 ];
 
-/// Problems with their homotopies.
-pub fn with_homotopies(problems: Vec<Problem>) -> impl Iterator<Item = (Problem, Homotopy)> {
-    problems.into_iter().map(|problem| {
+/// A problem with its homotopy, also in exact numbers.
+pub struct Case {
+    pub problem: Problem,
+    pub homotopy: Homotopy,
+    pub figure: Figure,
+}
+
+impl Case {
+    pub fn new(problem: Problem) -> Self {
         let homotopy = Homotopy::new(&problem).expect("a gauge");
-        (problem, homotopy)
-    })
+        (problem, homotopy).into()
+    }
+}
+
+impl From<(Problem, Homotopy)> for Case {
+    fn from((problem, homotopy): (Problem, Homotopy)) -> Self {
+        Case {
+            figure: Figure::new(&problem, &homotopy),
+            problem,
+            homotopy,
+        }
+    }
+}
+
+/// So many places in a chain, as far apart as they can be.
+pub fn spread<T>(chain: &[T], count: usize) -> impl Iterator<Item = usize> + use<T> {
+    (0..chain.len()).step_by((chain.len() / count).max(1))
 }
 
 /// A generated one.
@@ -124,16 +145,16 @@ pub fn generated(family: crate::generate::Family, size: usize) -> Problem {
 
 /// Random problems of distances written as other equations, with products of all kinds, several of degree 4 in
 /// t: those whose paths close.
-pub fn tails(seed: u64, count: usize) -> Vec<(Problem, Homotopy)> {
+pub fn tails(seed: u64, count: usize) -> Vec<Case> {
     let mut random = Random::new(seed);
-    let list: Vec<(Problem, Homotopy)> = (0..count)
+    let list: Vec<Case> = (0..count)
         .filter_map(|round| {
             let dimension = 2 + round % 2;
             let points = dimension + 1 + random.below(4);
             let plain = random_problem(&mut random, dimension, points, 0.3);
             let disguised = Disguised::new(&plain, 0.8, &mut random).with_homotopy()?;
             let closes = run(&disguised.1, false).status == Status::Closed;
-            closes.then_some(disguised)
+            closes.then(|| disguised.into())
         })
         .collect();
     assert!(3 * list.len() > 2 * count - 2);
@@ -141,14 +162,12 @@ pub fn tails(seed: u64, count: usize) -> Vec<(Problem, Homotopy)> {
 }
 
 /// Problems with constraints of all kinds, whose paths close.
-pub fn mixed(seed: u64, count: usize) -> Vec<(Problem, Homotopy)> {
+pub fn mixed(seed: u64, count: usize) -> Vec<Case> {
     let mut random = Random::new(seed);
-    let list: Vec<(Problem, Homotopy)> = (0..count)
-        .filter_map(|round| {
-            let problem = mixed_problem(&mut random, 2 + round % 2);
-            let homotopy = Homotopy::new(&problem).ok()?;
-            closes(&problem, Space::Full).then_some((problem, homotopy))
-        })
+    let list: Vec<Case> = (0..count)
+        .map(|round| mixed_problem(&mut random, 2 + round % 2))
+        .filter(|problem| closes(problem, Space::Full))
+        .map(Case::new)
         .collect();
     assert!(2 * list.len() > count, "{} of {count} close", list.len());
     list

@@ -136,17 +136,16 @@ struct Seen {
 }
 
 fn check_problem(
-    (problem, homotopy): (&Problem, &Homotopy),
+    case: &Case,
     (tubes, rounds): (usize, usize),
     random: &mut Random,
     ratios: &mut [Ratios; CHANGES.len()],
     seen: &mut Seen,
 ) {
-    let true_figure = Figure::new(problem, homotopy);
+    let (homotopy, true_figure) = (&case.homotopy, &case.figure);
     let mut shop = Shop::with_alpha(homotopy, [0.05, 0.1, 0.2][random.below(3)], f64::INFINITY);
     let chain = shop.chain(homotopy, 40);
-    let stride = (chain.len() / tubes).max(1);
-    for sample in chain.iter().step_by(stride) {
+    for sample in spread(&chain, tubes).map(|k| &chain[k]) {
         for round in 0..rounds {
             let kind = round % CHANGES.len();
             let what = CHANGES[kind];
@@ -158,27 +157,25 @@ fn check_problem(
                 let size = 10f64.powf(random.between(-12.0, -3.0));
                 lengthen(&mut shop.equations, homotopy, size, random)
             });
-            let figure = other.as_ref().unwrap_or(&true_figure);
+            let figure = other.as_ref().unwrap_or(true_figure);
             let part = [1.5, 1.0, 1.0, 0.1, 1e-2, 1e-4][random.below(6)];
             let h = sample.tube.proof.h * part;
-            let bounds = shop.test.bounds_at(&shop.equations, &mut tube, h);
-            let Some(bounds) = bounds else {
+            let Some(stated) = shop.bounds_at(&mut tube, h) else {
                 seen.refused += 1;
                 shop.equations = kept;
                 continue;
             };
             seen.bounded[kind] += 1;
-            let defect: Vec<f64> = shop.test.defect().to_vec();
             let speed = tube.local.y.speed;
             let faster = shop.test.speed_in(&tube, 1e6);
             let view = View::new(figure, &tube);
-            check_bounds(&view, (&bounds, &defect), random, ratios);
+            check_bounds(&view, &stated, random, ratios);
             check_resolvent(&view, &shop.equations, h, random, ratios);
             check_speed(&view, (h, 1.0, speed), random, ratios);
             check_speed(&view, (h, 1e6, faster), random, ratios);
             // What is proved of much shorter tubes by the same bounds.
             for part in [1.0, 0.6, 0.3] {
-                if let Ok(proof) = bounds.proof::<COEFFICIENTS>(part * h) {
+                if let Ok(proof) = stated.0.proof::<COEFFICIENTS>(part * h) {
                     let mut proved = tube.clone();
                     proved.proof = proof;
                     seen.proved[kind] += 1;
@@ -208,21 +205,20 @@ fn reduced_bounds_hold_whatever_the_numbers_kept() {
             list.push(random_problem(&mut random, dimension, points, 0.3));
         }
     }
-    check_all(with_homotopies(list), &mut random);
+    check_all(list.into_iter().map(Case::new), &mut random);
 }
 
 #[test]
 fn reduced_bounds_of_tails_hold_whatever_the_numbers_kept() {
-    check_all(tails(53, 16).into_iter(), &mut Random::new(54));
+    check_all(tails(53, 16), &mut Random::new(54));
 }
 
-fn check_all(list: impl Iterator<Item = (Problem, Homotopy)>, random: &mut Random) {
+fn check_all(list: impl IntoIterator<Item = Case>, random: &mut Random) {
     let mut ratios: [Ratios; CHANGES.len()] = Default::default();
     let mut seen = Seen::default();
-    for (problem, homotopy) in list {
-        let given = (&problem, &homotopy);
+    for case in list {
         let counts = (effort(4), 2 * CHANGES.len());
-        check_problem(given, counts, random, &mut ratios, &mut seen)
+        check_problem(&case, counts, random, &mut ratios, &mut seen)
     }
     println!("{seen:?}");
     for (what, ratios) in CHANGES.iter().zip(&ratios) {

@@ -16,7 +16,7 @@ use crate::track::reduced::certified::{Bounds, COEFFICIENTS};
 /// What `ReducedTest::bounds` states for |s| ≤ H, at one s.
 pub fn check_bounds(
     view: &View,
-    (bounds, defect): (&Bounds, &[f64]),
+    (bounds, defect): &(Bounds, Vec<f64>),
     random: &mut Random,
     ratios: &mut Ratios,
 ) -> Option<()> {
@@ -120,17 +120,6 @@ pub fn check_resolvent(
 ) -> Option<()> {
     let y = &view.tube.local.y;
     let s = Big::of(parameter(random, h));
-    let jacobian = view.figure.jacobian(&view.at(&s).0);
-    let a = view
-        .rows
-        .iter()
-        .map(|&e| {
-            view.unknowns
-                .iter()
-                .map(|&i| jacobian[e][i].clone())
-                .collect()
-        })
-        .collect();
     let g = right_hand_sides(random, view.rows.len());
     let sizes: Vec<[f64; LANE]> = g.iter().map(|g| g.each(f64::abs)).collect();
     let (mut work, mut bound) = (sizes.clone(), sizes.clone());
@@ -138,7 +127,7 @@ pub fn check_resolvent(
     y.resolvent
         .bound(equations, layout, &sizes, &mut work, &mut bound);
     let g = g.iter().map(|g| exact(g)).collect();
-    for (v, bound) in solve(a, g)?.iter().zip(&bound) {
+    for (v, bound) in solve(view.a(&s), g)?.iter().zip(&bound) {
         for (v, &bound) in v.iter().zip(bound) {
             let bound = round_up(bound, y.resolvent.roundings());
             ratios.check("|A⁻¹ g|", &v.abs(), bound);
@@ -345,43 +334,39 @@ pub fn check_tied(
 /// Some tubes of a path, so often each, by a test with this α and tubes of at most this length: how many there were, and how many
 /// of their exits can be tightened.
 pub fn check_problem(
-    (problem, homotopy): (&Problem, &Homotopy),
+    case: &Case,
     (alpha, max_h): (f64, f64),
     (tubes, rounds): (usize, usize),
     random: &mut Random,
     ratios: &mut Ratios,
 ) -> [usize; 2] {
-    let figure = Figure::new(problem, homotopy);
+    let (homotopy, figure) = (&case.homotopy, &case.figure);
     let mut shop = Shop::with_alpha(homotopy, alpha, max_h);
     let chain = shop.chain(homotopy, 600);
-    let stride = (chain.len() / tubes).max(1);
     let mut counts = [0; 2];
-    for k in (0..chain.len()).step_by(stride) {
-        let Proved {
-            tube,
-            kept: (bounds, defect),
-        } = &chain[k];
+    for k in spread(&chain, tubes) {
+        let Proved { tube, kept } = &chain[k];
+        let bounds = &kept.0;
         assert!(tube.proof.h <= bounds.h && tube.proof.r <= 1.0);
-        let view = View::new(&figure, tube);
+        let view = View::new(figure, tube);
         for _ in 0..rounds {
             check_path(&view, random, ratios).expect("a regular point");
-            check_bounds(&view, (bounds, defect), random, ratios).expect("a regular A");
+            check_bounds(&view, kept, random, ratios).expect("a regular A");
             check_resolvent(&view, &shop.equations, bounds.h, random, ratios).expect("a regular A");
         }
-        let tightened = check_exit(&mut shop, &figure, &chain[k], chain.get(k + 1), ratios);
+        let tightened = check_exit(&mut shop, figure, &chain[k], chain.get(k + 1), ratios);
         counts[0] += 1;
         counts[1] += usize::from(tightened.expect("a regular point"));
         // The bounds are those of the test, whose box is that of the tube proved last.
         let mut again = chain[k].tube.clone();
         let h = again.proof.h * [1.0, 0.1, 1e-3][random.below(3)];
-        let Some(bounds) = shop.test.bounds_at(&shop.equations, &mut again, h) else {
+        let Some(kept) = shop.bounds_at(&mut again, h) else {
             continue;
         };
-        let defect: Vec<f64> = shop.test.defect().to_vec();
         let speed = again.local.y.speed;
-        let view = View::new(&figure, &again);
+        let view = View::new(figure, &again);
         for _ in 0..rounds {
-            check_bounds(&view, (&bounds, &defect), random, ratios).expect("a regular A");
+            check_bounds(&view, &kept, random, ratios).expect("a regular A");
             check_resolvent(&view, &shop.equations, h, random, ratios).expect("a regular A");
             check_speed(&view, (h, 1.0, speed), random, ratios);
         }
@@ -389,17 +374,12 @@ pub fn check_problem(
     counts
 }
 
-fn check_homotopies(
-    list: impl Iterator<Item = (Problem, Homotopy)>,
-    (tubes, rounds): (usize, usize),
-    seed: u64,
-) -> Ratios {
+fn check_all(list: impl IntoIterator<Item = Case>, tubes: usize, seed: u64) -> Ratios {
     let (mut ratios, mut random) = (Ratios::default(), Random::new(seed));
-    for (problem, homotopy) in list {
-        let given = (&problem, &homotopy);
-        let (how, counts) = ((0.1, f64::INFINITY), (effort(tubes), rounds));
-        let [tubes, _] = check_problem(given, how, counts, &mut random, &mut ratios);
-        assert!(tubes > 0, "{}", problem.name);
+    for case in list {
+        let (how, counts) = ((0.1, f64::INFINITY), (effort(tubes), 2));
+        let [tubes, _] = check_problem(&case, how, counts, &mut random, &mut ratios);
+        assert!(tubes > 0, "{}", case.problem.name);
     }
     ratios
 }
@@ -422,22 +402,21 @@ const NEAR: [(&str, f64); 11] = [
 fn reduced_bounds_dominate_exact_values() {
     let mut list = problems(&REGULAR);
     list.extend([generated(Family::Chain, 48), generated(Family::Strip, 31)]);
-    check_homotopies(with_homotopies(list), (4, 2), 31).come_near(&NEAR);
+    check_all(list.into_iter().map(Case::new), 4, 31).come_near(&NEAR);
 }
 
 #[test]
 fn reduced_bounds_dominate_exact_values_near_singular_places() {
-    let list = with_homotopies(problems(&SINGULAR));
-    check_homotopies(list, (6, 2), 32).come_near(&NEAR);
+    let list = problems(&SINGULAR).into_iter().map(Case::new);
+    check_all(list, 6, 32).come_near(&NEAR);
 }
 
 #[test]
 fn reduced_bounds_dominate_exact_values_of_tails() {
-    let ratios = check_homotopies(tails(51, 24).into_iter(), (4, 2), 52);
-    ratios.come_near(&NEAR);
+    check_all(tails(51, 24), 4, 52).come_near(&NEAR);
 }
 
 #[test]
 fn reduced_bounds_dominate_exact_values_of_mixed_kinds() {
-    check_homotopies(mixed(55, 30).into_iter(), (3, 2), 56);
+    check_all(mixed(55, 30), 3, 56);
 }

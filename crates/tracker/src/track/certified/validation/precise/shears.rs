@@ -7,23 +7,20 @@ use super::*;
 use crate::linalg::Vector;
 use crate::track::certified::link::Frame;
 use crate::track::certified::tracker::Test;
+use crate::track::reduced::certified::Reduction;
 
 /// |T v| from |v|, and |𝒴 g|_ρ / (1 − q) from g.
-fn check_problem(
-    (problem, homotopy): (&Problem, &Homotopy),
-    tubes: usize,
-    random: &mut Random,
-    ratios: &mut Ratios,
-) {
-    let figure = Figure::new(problem, homotopy);
+fn check_problem(case: &Case, tubes: usize, random: &mut Random, ratios: &mut Ratios) {
+    let Case {
+        homotopy, figure, ..
+    } = case;
     let (n, m) = (figure.n, figure.m);
     let mut shop = Shop::new(homotopy, f64::INFINITY);
     let chain = shop.chain(homotopy, 100);
-    let stride = (chain.len() / tubes).max(1);
-    for sample in chain.iter().step_by(stride) {
-        let mut tube = sample.tube.clone();
+    for k in spread(&chain, tubes) {
+        let mut tube = chain[k].tube.clone();
         let h = tube.proof.h;
-        if shop.test.bounds_at(&shop.equations, &mut tube, h).is_none() {
+        if shop.bounds_at(&mut tube, h).is_none() {
             continue;
         }
         let ignored: Vec<usize> = {
@@ -57,7 +54,7 @@ fn check_problem(
                 .test
                 .radius_for(&shop.equations, &tube, &g)
                 .expect("a radius");
-            let view = View::new(&figure, &tube);
+            let view = View::new(figure, &tube);
             let columns = g.iter().map(|&g| vec![Big::of(g)]).collect();
             let step: Vec<Big> = view
                 .preconditioned(&s, &columns)
@@ -93,30 +90,20 @@ fn check_problem(
                 .map(Big::to_f64)
                 .collect();
             let extent = view.sheared(&k, &exact(&away), true);
-            let stated = tube.local.y.extent(
-                &tube.weights[..n],
-                place,
-                |i| (away[i], 0.0),
-                |i| (away[i], 0.0),
-            );
-            ratios.check("extent of T v", &view.norm(&extent), stated);
+            let known = |i: usize| (away[i], 0.0);
+            let stated = |y: &Reduction| y.extent(&tube.weights[..n], place, known, known);
+            ratios.check("extent of T v", &view.norm(&extent), stated(&tube.local.y));
             // Without the key unknowns' own, which are much larger.
             let mut own = tube.local.y.clone();
             view.keys
                 .iter()
                 .for_each(|&key| own.rho[key] = f64::INFINITY);
-            let stated = own.extent(
-                &tube.weights[..n],
-                place,
-                |i| (away[i], 0.0),
-                |i| (away[i], 0.0),
-            );
             let inner = view
                 .unknowns
                 .iter()
                 .map(|&i| extent[i].abs() / Big::of(own.rho[i]));
             let inner = inner.fold(Big::of(0.0), Big::max);
-            ratios.check("extent of T v in A", &inner, stated);
+            ratios.check("extent of T v in A", &inner, stated(&own));
         }
     }
 }
@@ -124,10 +111,9 @@ fn check_problem(
 #[test]
 fn what_is_taken_along_and_radii_from_defects_are_bounded() {
     let (mut ratios, mut random) = (Ratios::default(), Random::new(34));
-    let shipped = with_homotopies(problems(&["octahedron", "disulfide", "k33", "dodecagon"]));
-    for (problem, homotopy) in shipped.chain(tails(55, 6)) {
-        let given = (&problem, &homotopy);
-        check_problem(given, effort(12), &mut random, &mut ratios)
+    let shipped = problems(&["octahedron", "disulfide", "k33", "dodecagon"]);
+    for case in shipped.into_iter().map(Case::new).chain(tails(55, 6)) {
+        check_problem(&case, effort(12), &mut random, &mut ratios)
     }
     ratios.come_near(&[("radius from a defect", 0.5), ("T v", 0.99)]);
 }
@@ -136,9 +122,9 @@ fn what_is_taken_along_and_radii_from_defects_are_bounded() {
 /// E(t(s)) has orders s¹⁶ and s³², of which the last is the largest.
 #[test]
 fn the_bend_counts_to_its_last_order() {
-    let problem = triangle();
-    let homotopy = Homotopy::new(&problem).expect("a gauge");
-    let figure = Figure::new(&problem, &homotopy);
+    let Case {
+        homotopy, figure, ..
+    } = Case::new(triangle());
     let mut shop = Shop::new(&homotopy, f64::INFINITY);
     let (n, m) = (figure.n, figure.m);
     let mut tube = Tube::new(&shop.equations);
@@ -162,18 +148,14 @@ fn the_bend_counts_to_its_last_order() {
     let weights: &mut Vector = shop.test.weights_mut();
     weights[..n].fill(1.0);
     weights[m] = 1e-5;
-    let bounds = shop
-        .test
-        .bounds_at(&shop.equations, &mut tube, 1.0)
-        .expect("bounds");
-    let defect: Vec<f64> = shop.test.defect().to_vec();
+    let stated = shop.bounds_at(&mut tube, 1.0).expect("bounds");
     let (speed, view) = (tube.local.y.speed, View::new(&figure, &tube));
     let (mut ratios, mut random) = (Ratios::default(), Random::new(35));
     // t is at 5/2 or 1/2 ± 0 then; ẑ_t is what was asked for.
     let last = [0.5, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 2.0];
     assert_eq!(view.at(&Big::of(1.0)).0[m], horner(&last, &Big::of(1.0)));
     for _ in 0..20 {
-        check_bounds(&view, (&bounds, &defect), &mut random, &mut ratios).expect("a regular A");
+        check_bounds(&view, &stated, &mut random, &mut ratios).expect("a regular A");
         check_speed(&view, (1.0, 1.0, speed), &mut random, &mut ratios);
     }
     ratios.come_near(&[("|Φ(0)|", 0.15)]);
@@ -190,14 +172,10 @@ fn the_bend_counts_to_its_last_order() {
     let mut e = figure.e;
     e[bend.edge][4] += Big::of(1e3);
     let figure = Figure::with(&homotopy, e);
-    let bounds = shop
-        .test
-        .bounds_at(&shop.equations, &mut tube, 1.0)
-        .expect("bounds");
-    let defect: Vec<f64> = shop.test.defect().to_vec();
+    let stated = shop.bounds_at(&mut tube, 1.0).expect("bounds");
     let (view, mut ratios) = (View::new(&figure, &tube), Ratios::default());
     for _ in 0..20 {
-        check_bounds(&view, (&bounds, &defect), &mut random, &mut ratios).expect("a regular A");
+        check_bounds(&view, &stated, &mut random, &mut ratios).expect("a regular A");
     }
     ratios.come_near(&[("|Φ'(v) − Φ'(0)|", 0.05)]);
 }

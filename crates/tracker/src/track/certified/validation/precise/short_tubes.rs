@@ -6,12 +6,11 @@ use super::*;
 use crate::track::certified::tracker::Test;
 
 fn chain_of(name: &str, count: usize) -> (Figure, Shop, Vec<ReducedSample>) {
-    let problem = &problems(&[name])[0];
-    let homotopy = Homotopy::new(problem).expect("a gauge");
-    let mut shop = Shop::new(&homotopy, f64::INFINITY);
-    let chain = shop.chain(&homotopy, count);
+    let case = Case::new(testing::shipped(name));
+    let mut shop = Shop::new(&case.homotopy, f64::INFINITY);
+    let chain = shop.chain(&case.homotopy, count);
     assert_eq!(chain.len(), count);
-    (Figure::new(problem, &homotopy), shop, chain)
+    (case.figure, shop, chain)
 }
 
 /// The exit of the one is that of the other, to the last bit.
@@ -122,17 +121,14 @@ fn the_box_of_a_tightened_exit_reaches_the_path_from_wherever_the_short_tube_is(
         }
         settle(equations, &mut short.local);
         // For its series.
-        if shop
-            .test
-            .bounds_at(equations, &mut short, 1e-4 * sample.tube.proof.h)
-            .is_none()
-        {
+        let h = 1e-4 * sample.tube.proof.h;
+        if shop.bounds_at(&mut short, h).is_none() {
             continue;
         }
         let mut tube = sample.tube.clone();
         if shop
             .test
-            .enclose_by(equations, &mut tube, &mut short)
+            .enclose_by(&shop.equations, &mut tube, &mut short)
             .is_some()
         {
             tightened[kind] += 1;

@@ -92,21 +92,22 @@ impl<'a> View<'a> {
         norm(&self.tube.local.y.rho, v)
     }
 
+    /// A(s).
+    pub fn a(&self, s: &Big) -> Rows {
+        let jacobian = self.figure.jacobian(&self.at(s).0);
+        let row = |e: usize| {
+            self.unknowns
+                .iter()
+                .map(|&i| jacobian[e][i].clone())
+                .collect()
+        };
+        self.rows.iter().map(|&e| row(e)).collect()
+    }
+
     /// 𝒴(s) G, G having a row per equation, the normal's last.
     pub fn preconditioned(&self, s: &Big, g: &Rows) -> Option<Rows> {
-        let jacobian = self.figure.jacobian(&self.at(s).0);
-        let a = self
-            .rows
-            .iter()
-            .map(|&e| {
-                self.unknowns
-                    .iter()
-                    .map(|&i| jacobian[e][i].clone())
-                    .collect()
-            })
-            .collect();
         let g_a = self.rows.iter().map(|&e| g[e].clone()).collect();
-        let inner = solve(a, g_a)?;
+        let inner = solve(self.a(s), g_a)?;
         let mut out = vec![vec![Big::of(0.0); g[0].len()]; self.figure.n];
         for (&i, row) in self.unknowns.iter().zip(inner) {
             out[i] = row;
