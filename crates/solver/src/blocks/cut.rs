@@ -230,12 +230,17 @@ impl Cut {
         let implied = cut.system.implied.iter();
         let mut contradicted = implied.filter(|&&index| !cut.at_target(index).is_zero());
         if let Some(&index) = contradicted.next() {
-            return Err(format!(
-                "{} contradicts the other constraints",
-                cut.name(index)
-            ));
+            return Err(format!("{} contradicts {}", cut.name(index), cut.others()));
         }
         Ok(cut)
+    }
+
+    /// What a constraint may follow from or contradict.
+    pub fn others(&self) -> &'static str {
+        match self.problem.kept.what.is_empty() {
+            true => "the other constraints",
+            false => "the other constraints and what is left as it is in the file",
+        }
     }
 
     /// Where an unknown is drawn.

@@ -120,7 +120,8 @@ impl Parts {
             };
             let name = self.cut.name_left_out(k);
             let words = format!(
-                "{name} contradicts the other constraints: the figure that meets them misses it by at least {}, proved",
+                "{name} contradicts {}: the figure that meets them misses it by at least {}, proved",
+                self.cut.others(),
                 rounded_down(by)
             );
             Some((k, Stop::new(StopKind::Contradiction, words)))
@@ -135,8 +136,9 @@ impl Parts {
         let mut all = redundant.chain(self.cut.system.implied.iter().copied());
         let fixed = all.find(|&index| moves(&rights[index]))?;
         Some(format!(
-            "{} follows from the other constraints at this figure and cannot change by itself, nor otherwise than they make it all along the way",
-            self.cut.name(fixed)
+            "{} follows from {} at this figure and cannot change by itself, nor otherwise than they make it all along the way",
+            self.cut.name(fixed),
+            self.cut.others()
         ))
     }
 }
