@@ -544,15 +544,8 @@ impl Reader {
                 ("symmetric", vec![Item::Point(a), Item::Point(b), mirror])
             }
             17 => {
-                let points = match self.edge(first.0)? {
-                    Drawn::Line { ends, .. } => ends.to_vec(),
-                    Drawn::Point(p) => vec![p],
-                    Drawn::Circle { .. } | Drawn::Arc { .. } | Drawn::Other => return None,
-                };
-                for p in points {
-                    self.drawing
-                        .constrain(source, "fixed", vec![Item::Point(p)], None);
-                }
+                let items = self.items((first.0, 0));
+                items.into_iter().for_each(|item| self.drawing.fix(item));
                 return Some(());
             }
             _ => return None,

@@ -1,7 +1,9 @@
 //! Sketches that FreeCAD made and solved (tests/data/freecad/make.py): after an edit figures are where FreeCAD has them.
 
 use crate::real_files::File;
+use crate::real_files::freecad::{archive, constraint, line, sketch as sketch_of};
 use krawl::edit::{Asked, Ending, Session, Setting, SettingError};
+use krawl::problem::Point;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
@@ -104,5 +106,49 @@ fn angles_keep_the_signs_of_the_file() {
         ("round", "200"),
     ] {
         assert_eq!(number(name), ("turns".to_owned(), value.to_owned()));
+    }
+}
+
+/// What newer versions of FreeCAD have, too: `Block` of a circle and an arc, lines tangent to each other, a distance of a circle.
+#[test]
+fn round_things_are_blocked_and_have_distances() {
+    let round = |kind: &str, more: &str, [x, y, r]: [f64; 3]| {
+        format!(
+            "<Geometry type=\"Part::Geom{kind}\"><{kind} CenterX=\"{x}\" CenterY=\"{y}\" NormalZ=\"1\" AngleXU=\"0\" Radius=\"{r}\" {more}/></Geometry>"
+        )
+    };
+    let geometry = round("Circle", "", [0.0, 0.0, 3.0])
+        + &round(
+            "ArcOfCircle",
+            "StartAngle=\"0\" EndAngle=\"2\"",
+            [20.0, 0.0, 2.0],
+        )
+        + &line([-5.0, 7.0, 5.0, 7.0])
+        + &line([9.0, 7.0, 13.0, 7.0]);
+    let constraints = [
+        constraint("", 17, 0.0, &[(0, 0)]),
+        constraint("", 17, 0.0, &[(1, 0)]),
+        constraint("gap", 6, 4.0, &[(0, 0), (2, 0)]),
+        constraint("", 2, 0.0, &[(2, 0)]),
+        constraint("", 5, 0.0, &[(2, 0), (3, 0)]),
+    ];
+    let sketch = sketch_of(&constraints.concat(), &geometry, "");
+    let bytes = archive(&[("Sketcher::SketchObject", "Sketch", &sketch)]);
+    let file = File::new("round.FCStd", bytes, None);
+    assert!(file.problem.kept.what.is_empty());
+    let at = |name: &str| {
+        let named = |p: &Point| p.name == name;
+        file.problem.points.iter().position(named).unwrap()
+    };
+    let mut session = Session::open(&file.problem).unwrap();
+    let before = session.figure();
+    let edited = session.edit(&[Setting::parse(&file.problem, "gap=5").unwrap()]);
+    assert_eq!(edited.ending, Ending::Reached);
+    let after = session.figure();
+    for name in ["e1.center", "e2.center", "e2.start", "e2.end"] {
+        assert_eq!(after[at(name)], before[at(name)], "{name}");
+    }
+    for name in ["e3.start", "e3.end", "e4.start", "e4.end"] {
+        assert!((after[at(name)][1] - 8.0).abs() < 1e-9, "{name}");
     }
 }
