@@ -88,13 +88,10 @@ fn real_sketches_load_and_survive_edits() {
                 continue;
             }
             count.sketches += 1;
-            if !sketch.problem.kept.kinds.is_empty() {
-                for (kind, n) in &sketch.problem.kept.kinds {
-                    *unsupported.entry(kind.clone()).or_default() += n;
-                }
-                continue;
+            for (kind, n) in &sketch.problem.kept.kinds {
+                *unsupported.entry(kind.clone()).or_default() += n;
             }
-            count.supported += 1;
+            count.supported += usize::from(sketch.problem.kept.kinds.is_empty());
             let what = format!("{name} {}", listed.name);
             let start = Instant::now();
             let mut session = match Session::open(&sketch.problem) {
