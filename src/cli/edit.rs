@@ -151,6 +151,8 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
         }
     }
     let asked = Asked::new(&problem, &named).map_err(|e| in_file(&e))?;
+    let led: Vec<usize> = asked.given.iter().map(|setting| setting.index).collect();
+    loaded.check_numbers(&led).map_err(|e| in_file(&e))?;
     let mut followed = match arguments.set.is_empty() {
         true => Followed::default(),
         false => loaded.followed(&problem, &asked.given),

@@ -333,6 +333,23 @@ impl Loaded {
         self.imported.as_mut()?.0.set_cell(name, value)
     }
 
+    /// Whether a dimension, by index, has a number in the file: see [`Imported::has_number`].
+    pub fn has_number(&self, index: usize) -> bool {
+        let imported = self.imported.as_ref();
+        imported.is_none_or(|(imported, _)| imported.has_number(index))
+    }
+
+    /// Refuses to lead dimensions, by index, of which the file has no number.
+    pub fn check_numbers(&self, led: &[usize]) -> Result<(), String> {
+        match led.iter().find(|index| !self.has_number(**index)) {
+            Some(&index) => Err(format!(
+                "`{}` stays as it is: there is no number of this sketch to change",
+                self.problem.dimension_name(index)
+            )),
+            None => Ok(()),
+        }
+    }
+
     /// Says which of dimensions that are led, and are tied to these, the file's own program computes: see [`Imported::computed`].
     pub fn say_computed(&self, led: &[usize]) {
         let imported = self.imported.as_ref();

@@ -56,6 +56,9 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
     let only = only
         .collect::<Result<Vec<_>, _>>()
         .map_err(|error| format!("{shown}: {error}"))?;
+    loaded
+        .check_numbers(&only)
+        .map_err(|error| format!("{shown}: {error}"))?;
     match only.is_empty() {
         true => loaded.say_computed(&problem.dimensions().collect::<Vec<_>>()),
         false => loaded.say_computed(&only),
@@ -73,6 +76,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
             .map(|&index| session.range(index, &mut control))
             .collect(),
     };
+    ranges.retain(|range| loaded.has_number(range.index));
     for range in &mut ranges {
         loaded.add_left_out(&mut range.account, None);
     }

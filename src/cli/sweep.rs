@@ -118,7 +118,9 @@ fn drive(arguments: &Arguments, vary: &str, ends: [&str; 2]) -> Result<u8, Refus
     let named = ends.each(|value| (vary, value));
     let asked = Asked::of_dimensions(problem, &named).map_err(|e| in_file(&e))?;
     Setting::check(&asked.problem, &asked.settings[..1]).map_err(|e| in_file(&e))?;
-    loaded.say_computed(&[asked.given[0].index]);
+    let led = [asked.given[0].index];
+    loaded.check_numbers(&led).map_err(|e| in_file(&e))?;
+    loaded.say_computed(&led);
     let measures = arguments.measured.of(problem)?;
     let as_turns = asked.in_words(problem);
     let (mut problem, mut index) = (asked.problem, asked.settings[0].index);

@@ -76,7 +76,11 @@ pub(super) fn run(arguments: &Arguments, file: &Path) -> Result<u8, Refusal> {
         .map_err(|error| format!("{}: {error}", file.display()))?;
     let (columns, problem) = (table.names.len(), &asked.problem);
     let led = asked.given[..columns].iter().map(|setting| setting.index);
-    loaded.say_computed(&led.collect::<Vec<_>>());
+    let led: Vec<usize> = led.collect();
+    loaded
+        .check_numbers(&led)
+        .map_err(|error| format!("{}: {error}", file.display()))?;
+    loaded.say_computed(&led);
     let measures = arguments.measured.of(problem)?;
     let mut results = arguments.results()?;
     let folder = arguments.out_folder.as_deref();

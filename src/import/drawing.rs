@@ -120,7 +120,7 @@ impl Drawing {
         self.names.insert(source, name);
     }
 
-    /// A constraint that there is no kind for: what it is of stays where it is.
+    /// A constraint that there is no kind for: these, which it names, stay where they are.
     pub fn keep(&mut self, source: Source, kind: &str, items: impl IntoIterator<Item = Item>) {
         self.kept
             .constraints
@@ -150,7 +150,7 @@ impl Drawing {
                     let points = match *shape {
                         Shape::Line(ends) => ends.to_vec(),
                         Shape::Arc { center, start, .. } => vec![center, start],
-                        Shape::Round { center, .. } => vec![center],
+                        // With its centre.
                         _ => Vec::new(),
                     };
                     (name, points)
@@ -164,32 +164,34 @@ impl Drawing {
                 self.kept.what.push(name.clone());
             }
             for p in points {
-                let is_fixed = |(c, _): &(Constraint, _)| {
-                    c.kind == "fixed"
-                        && matches!(c.items[0], Item::Point(q) if self.joined.of(q) == self.joined.of(p))
-                };
-                if !self.constraints.iter().any(is_fixed) {
+                if !self.is_fixed(p) {
                     self.constrain(None, "fixed", vec![Item::Point(p)], None);
                 }
             }
             let Item::Object(o) = item else { continue };
-            match &self.objects[o].shape {
-                Shape::Round { radius, .. } => {
-                    let radius = radius.to_f64();
-                    self.constrain(None, "radii", vec![item], Some(radius));
-                }
-                // It is as far from the centre as the start is.
-                &Shape::Arc { center, end, .. } => {
-                    let ([cx, cy], [x, y]) = (self.at(center), self.at(end));
-                    let (key, value) = match (x - cx).abs() < (y - cy).abs() {
-                        true => ("x", x),
-                        false => ("y", y),
-                    };
-                    self.constrain(None, key, vec![Item::Point(end)], Some(value));
+            match self.objects[o].shape {
+                Shape::Round { .. } => self.constrain(None, "fixed", vec![item], None),
+                // As far from the centre as the start, it is told by how far it is turned from there.
+                Shape::Arc { center, start, end } if !self.is_fixed(end) => {
+                    let [from, to] = [start, end].map(|p| {
+                        let ([cx, cy], [x, y]) = (self.at(center), self.at(p));
+                        (y - cy).atan2(x - cx).to_degrees()
+                    });
+                    let items = [start, center, end].each(Item::Point).to_vec();
+                    let turned = (to - from).rem_euclid(360.0);
+                    self.constrain(None, "turns", items, Some(turned));
                 }
                 _ => {}
             }
         }
+    }
+
+    /// Whether a point stays where it is, or one that is in the same place by constraint.
+    fn is_fixed(&self, point: usize) -> bool {
+        let place = self.joined.of(point);
+        self.constraints.iter().any(|(c, _)| {
+            c.kind == "fixed" && matches!(c.items[0], Item::Point(p) if self.joined.of(p) == place)
+        })
     }
 
     /// A constraint.

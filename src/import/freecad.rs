@@ -20,7 +20,7 @@ use crate::problem::{Item, Point, Problem, Shape};
 use computed::{Evaluation, Numbers};
 use elsewhere::Shapes;
 use roxmltree::{Document, Node};
-use shape::Outline;
+use shape::{Outline, Seen};
 use std::collections::{HashMap, HashSet};
 use std::io::{Cursor, Read, Write};
 use std::ops::Range;
@@ -818,17 +818,20 @@ pub fn read(bytes: &[u8], index: usize) -> Result<Imported, String> {
             reader.read(id, geometry);
         }
     }
-    if property(object, "ExternalGeo").is_none() {
+    if property(object, "ExternalGeo").is_none() && named.iter().any(|&id| id <= -3 && id != NONE) {
         let shapes = Shapes::new(&document, bytes);
-        for (k, link) in listed(object, "ExternalGeometry", "Link")
-            .into_iter()
-            .enumerate()
-        {
-            let id = -3 - k as i64;
-            let seen = named.contains(&id).then(|| shapes.seen(object, link));
-            if let Some(outline) = seen.flatten() {
-                reader.draw(id, outline, None);
+        let mut id = -3;
+        for link in listed(object, "ExternalGeometry", "Link") {
+            match shapes.seen(object, link) {
+                Some(Seen::Nothing) => continue,
+                Some(Seen::Outline(outline)) if named.contains(&id) => {
+                    reader.draw(id, outline, None)
+                }
+                Some(_) => {}
+                // Neither is it known which are the next.
+                None => break,
             }
+            id -= 1;
         }
     }
     let mut values = Vec::new();
@@ -851,6 +854,10 @@ pub fn read(bytes: &[u8], index: usize) -> Result<Imported, String> {
                 true => format!("{kind} to another object"),
                 false => kind,
             };
+            // Of what is about directions and curves all of the edges, not the ends alone that it names: tangents, angles, right angles,
+            // what belongs to a curve, refraction, weights.
+            let is_of_edges = matches!(whole(node, "Type"), 5 | 9 | 10 | 15 | 16 | 19);
+            let sides = sides.map(|(id, end)| (id, if is_of_edges { 0 } else { end }));
             let own = sides.into_iter().filter(|(id, _)| *id >= 0);
             let items = own.flat_map(|side| reader.items(side));
             let items: Vec<Item> = items.collect();

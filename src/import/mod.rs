@@ -2,8 +2,8 @@
 //! `.mol`, `.sdf`, `.pdb`), robots (`.urdf`) and systems of polynomials, which become problem files.
 //!
 //! A file may hold several sketches; [`list`] says which, and [`read`] takes one. What it says becomes a
-//! [`Problem`] in the sketch's own frame, with the kinds of constraints that krawl has. What a constraint of a
-//! kind that krawl does not have is of stays where it is ([`Problem::kept`] names it); nothing is left out in silence.
+//! [`Problem`] in the sketch's own frame, with the kinds of constraints that krawl has. Where krawl
+//! has no such kind, the points and edges that the constraint names stay where they are ([`Problem::kept`] has them).
 //!
 //! The problem is what the file says and no more: it may be under-constrained, or say a thing twice. Edits take it
 //! as it is ([`crate::edit::Session`] says what it held and what it left out).

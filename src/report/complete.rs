@@ -242,6 +242,10 @@ pub(super) fn verdict(problem: &Problem, result: &Complete) -> String {
     if result.count != Some(0) {
         words += &both_ways_in_words(&result.both_ways);
     }
+    let kept = Account::of(problem, 0).kept_in_words();
+    if !kept.is_empty() {
+        struck += &format!(" That is {kept}.");
+    }
     words + &struck + &supposed(problem)
 }
 

@@ -89,7 +89,7 @@ fn claim_in_words(figures: &Figures) -> String {
         None => "more than 2^64 figures meet".to_owned(),
     };
     let all = match figures.meets_all() {
-        true if !figures.account().kept.is_empty() => "all constraints that are read",
+        true if !figures.account().left_as_is.is_empty() => "all constraints that are read",
         true => "all constraints",
         false => "all constraints but those named below",
     };

@@ -1,7 +1,7 @@
 //! Geometry of other objects that a sketch of an older FreeCAD names and does not keep: seen in the sketch's plane from the shapes in the
 //! file, as `SketchObject::rebuildExternalGeometry` sees it. Newer ones keep it with the sketch.
 
-use super::shape::{Outline, Plane, Shape};
+use super::shape::{Plane, Seen, Shape};
 use super::{archive, number, objects, property};
 use roxmltree::{Document, Node};
 use std::cell::RefCell;
@@ -32,9 +32,8 @@ impl<'a> Shapes<'a> {
         }
     }
 
-    /// What a link of a sketch names, in the plane of the sketch. `None`: the file does not have its place, or it is no line, circle,
-    /// arc or point there.
-    pub fn seen(&self, sketch: Node, link: Node) -> Option<Outline> {
+    /// What FreeCAD draws in the plane of a sketch for a link of it. `None`: that is not known.
+    pub fn seen(&self, sketch: Node, link: Node) -> Option<Seen> {
         let file = *self.files.get(link.attribute("obj")?)?;
         let mut read = self.read.borrow_mut();
         let shape = read.entry(file).or_insert_with(|| self.shape(file));

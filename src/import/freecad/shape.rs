@@ -10,10 +10,10 @@ use std::str::{FromStr, SplitAsciiWhitespace};
 
 type Vector = [f64; 3];
 
-/// More parts are not gone through.
-const MOST: usize = 2_000_000;
+/// More parts are not gone through, nor displacements of which their places are products.
+const MOST: usize = 4_000_000;
 /// No place is the product of as many displacements.
-const MOST_FACTORS: u32 = 1000;
+const MOST_FACTORS: u32 = 100;
 /// Directions as near as this are parallel, and points as near as this are one: `Precision::Confusion()`.
 const CONFUSION: f64 = 1e-7;
 
@@ -43,6 +43,7 @@ enum Edge {
         ends: [Vector; 2],
     },
     Other,
+    Nothing,
 }
 
 /// What is seen of an edge or a vertex in a plane, in its coordinates.
@@ -59,6 +60,16 @@ pub enum Outline {
         center: [f64; 2],
         ends: [[f64; 2]; 2],
     },
+}
+
+/// What FreeCAD draws for a part of a shape.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Seen {
+    /// Nothing: an edge without a curve, as at a pole of a sphere.
+    Nothing,
+    /// An outline that is no line, circle, arc or point.
+    Other,
+    Outline(Outline),
 }
 
 /// The edges and vertices of a shape.
@@ -200,6 +211,7 @@ impl Locations {
             given: vec![Motion::NONE],
             words: vec![Vec::new()],
         };
+        let mut work = 0;
         for number in 1..=count {
             let mut given = Motion::NONE;
             let mut word = vec![(number, 1)];
@@ -226,12 +238,18 @@ impl Locations {
                             true => factor.copied().collect(),
                             false => factor.rev().map(|&(w, p)| (w, -p)).collect(),
                         };
-                        for _ in 0..power.unsigned_abs().min(MOST_FACTORS) {
+                        let times = if factor.is_empty() {
+                            0
+                        } else {
+                            power.unsigned_abs()
+                        };
+                        for _ in 0..times {
                             word = product(&factor, &word);
-                        }
-                        let count = word.iter().map(|(_, power)| power.unsigned_abs());
-                        if count.sum::<u32>() >= MOST_FACTORS {
-                            return None;
+                            work += word.len();
+                            let count = word.iter().map(|(_, power)| power.unsigned_abs());
+                            if work > MOST || times.max(count.sum()) > MOST_FACTORS {
+                                return None;
+                            }
                         }
                     }
                 }
@@ -398,7 +416,7 @@ impl Shape {
         let mut open = vec![(root, Word::new())];
         let mut steps = 0;
         while let Some(((number, at), outer)) = open.pop() {
-            steps += 1;
+            steps += 1 + outer.len();
             if steps > MOST {
                 return None;
             }
@@ -414,7 +432,7 @@ impl Shape {
                 Kind::Vertex(p) if is_new => shape.vertices.push(locations.motion(&at).of(p)),
                 Kind::Edge(on) if is_new => {
                     let edge = match on {
-                        None => Edge::Other,
+                        None => Edge::Nothing,
                         Some((curve, place, range)) => {
                             let at = product(&at, locations.words.get(place)?);
                             let curve = curves.get(curve.checked_sub(1)?)?;
@@ -431,51 +449,49 @@ impl Shape {
         Some(shape)
     }
 
-    /// What is seen in a plane of a part, `Edge3` or `Vertex1`. `None`: it has no such part, or it is no line, circle or arc there.
-    pub fn seen(&self, part: &str, plane: &Plane) -> Option<Outline> {
+    /// What is seen in a plane of a part, `Edge3` or `Vertex1`. `None`: it has no such part, or that is no edge or vertex.
+    pub fn seen(&self, part: &str, plane: &Plane) -> Option<Seen> {
         let number = |name: &str| -> Option<usize> {
-            part.strip_prefix(name)?
-                .parse::<usize>()
-                .ok()?
-                .checked_sub(1)
+            let number: usize = part.strip_prefix(name)?.parse().ok()?;
+            number.checked_sub(1)
         };
         if let Some(vertex) = number("Vertex") {
-            return Some(Outline::Point(plane.seen(*self.vertices.get(vertex)?)));
+            let at = plane.seen(*self.vertices.get(vertex)?);
+            return Some(Seen::Outline(Outline::Point(at)));
         }
-        match *self.edges.get(number("Edge")?)? {
+        Some(match *self.edges.get(number("Edge")?)? {
+            Edge::Nothing => Seen::Nothing,
+            Edge::Other => Seen::Other,
             Edge::Line(ends) => {
                 let ends = ends.map(|end| plane.seen(end));
                 let far = (ends[1][0] - ends[0][0]).hypot(ends[1][1] - ends[0][1]);
-                Some(match far < CONFUSION {
+                Seen::Outline(match far < CONFUSION {
                     true => Outline::Point(ends[0]),
                     false => Outline::Line(ends),
                 })
             }
+            Edge::Arc { axis, .. } if length(cross(axis, plane.axes[2])) > CONFUSION => Seen::Other,
             Edge::Arc {
                 center,
                 axis,
                 radius,
-                ends,
+                ends: [first, last],
             } => {
-                if length(cross(axis, plane.axes[2])) > CONFUSION {
-                    return None;
-                }
                 let center = plane.seen(center);
                 // The square, as there.
-                if distance(ends[0], ends[1]).powi(2) < CONFUSION {
-                    return Some(Outline::Circle { center, radius });
+                if distance(first, last).powi(2) < CONFUSION {
+                    return Some(Seen::Outline(Outline::Circle { center, radius }));
                 }
-                let [first, last] = ends.map(|end| plane.seen(end));
                 let is_clockwise = dot(axis, plane.axes[2]) < 0.0;
                 let ends = if is_clockwise {
                     [last, first]
                 } else {
                     [first, last]
                 };
-                Some(Outline::Arc { center, ends })
+                let ends = ends.map(|end| plane.seen(end));
+                Seen::Outline(Outline::Arc { center, ends })
             }
-            Edge::Other => None,
-        }
+        })
     }
 }
 
@@ -529,29 +545,41 @@ mod tests {
             axes: [[0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, -1.0]],
         };
         let circle = |y: f64| {
-            Some(Outline::Circle {
+            Some(Seen::Outline(Outline::Circle {
                 center: [y, 1.0],
                 radius: 4.0,
-            })
+            }))
         };
         assert_eq!(shape.seen("Edge1", &above), circle(12.0));
         assert_eq!(shape.seen("Edge3", &above), circle(22.0));
         assert_eq!(
             shape.seen("Edge2", &above),
-            Some(Outline::Point([22.0, 1.0]))
+            Some(Seen::Outline(Outline::Point([22.0, 1.0])))
         );
         let ahead = Plane {
             axes: [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]],
             ..above
         };
         let line = [[1.0, 3.0], [1.0, 8.0]];
-        assert_eq!(shape.seen("Edge2", &ahead), Some(Outline::Line(line)));
-        assert_eq!(shape.seen("Edge1", &ahead), None);
-        let vertex = Some(Outline::Point([5.0, 3.0]));
+        let line = Some(Seen::Outline(Outline::Line(line)));
+        assert_eq!(shape.seen("Edge2", &ahead), line);
+        assert_eq!(shape.seen("Edge1", &ahead), Some(Seen::Other));
+        let vertex = Some(Seen::Outline(Outline::Point([5.0, 3.0])));
         assert_eq!(shape.seen("Vertex1", &ahead), vertex);
         for part in ["Edge4", "Edge0", "Vertex4", "Face1", ""] {
             assert_eq!(shape.seen(part, &ahead), None);
         }
+    }
+
+    #[test]
+    fn an_edge_without_a_curve_is_nothing() {
+        let text = TEXT.replacen("1  2 0 0 5\n", "", 1);
+        let ahead = Plane {
+            origin: [0.0; 3],
+            axes: [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]],
+        };
+        let shape = Shape::read(&text).unwrap();
+        assert_eq!(shape.seen("Edge2", &ahead), Some(Seen::Nothing));
     }
 
     #[test]

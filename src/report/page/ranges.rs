@@ -15,6 +15,14 @@ pub(super) fn page(reader: &Reader, limits: &Limits) -> Result<Page, ShowError> 
             rounded_up(limits.moved)
         );
     }
+    let kept = limits
+        .ranges
+        .0
+        .iter()
+        .map(|(_, range)| range.account.kept_in_words());
+    if let Some(kept) = kept.max().filter(|kept| !kept.is_empty()) {
+        page.verdict += &format!(" That is {kept}.");
+    }
     let mut ranges: Vec<&(String, RangeOf)> = limits.ranges.0.iter().collect();
     // In the order of the file.
     ranges.order_by_key(|(_, range)| range.constraint);

@@ -30,7 +30,7 @@ pub struct Account {
     pub held: Vec<Held>,
     /// What is left as it is in the file of another program.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub kept: Vec<String>,
+    pub left_as_is: Vec<String>,
     /// Because of what, each with its number: `Ellipse (2)`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub without_a_kind: Vec<String>,
@@ -137,7 +137,7 @@ impl Account {
         let kinds = problem.kept.kinds.iter();
         Account {
             equations,
-            kept: problem.kept.what.clone(),
+            left_as_is: problem.kept.what.clone(),
             without_a_kind: kinds.map(|(kind, n)| format!("{kind} ({n})")).collect(),
             ..Account::default()
         }
@@ -186,8 +186,8 @@ impl Account {
                 self.held.push(held.clone());
             }
         }
-        if self.kept.is_empty() {
-            self.kept.clone_from(&other.kept);
+        if self.left_as_is.is_empty() {
+            self.left_as_is.clone_from(&other.left_as_is);
             self.without_a_kind.clone_from(&other.without_a_kind);
         }
         self.equations = self.equations.max(other.equations);
@@ -203,7 +203,10 @@ impl Account {
 
     /// Whether the claim is about the figure as it is: nothing is held or added, and what was left out follows, proved.
     pub fn is_whole(&self) -> bool {
-        self.held.is_empty() && self.added.is_empty() && self.kept.is_empty() && self.meets_all()
+        self.held.is_empty()
+            && self.added.is_empty()
+            && self.left_as_is.is_empty()
+            && self.meets_all()
     }
 
     /// Whether all constraints are proved to be met: none was left out but those that follow from the others.
@@ -237,7 +240,7 @@ impl Account {
     /// What stays as it is in the file, and why: `with e7 left as it is because of Ellipse (1), which krawl has no kind for`; empty where nothing does.
     pub fn kept_in_words(&self) -> String {
         let kinds = list(&self.without_a_kind);
-        match self.kept.as_slice() {
+        match self.left_as_is.as_slice() {
             [] => String::new(),
             [one] => {
                 format!("with {one} left as it is because of {kinds}, which krawl has no kind for")
