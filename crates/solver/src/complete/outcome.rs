@@ -230,6 +230,7 @@ pub struct Progress {
 }
 
 /// What a search may take, and whom it tells.
+#[derive(Clone)]
 pub struct Options<'a> {
     /// Ends the search from outside.
     pub cancel: Option<&'a AtomicBool>,
