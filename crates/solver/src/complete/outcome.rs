@@ -21,9 +21,10 @@ use std::thread::Thread;
 use std::time::{Duration, Instant};
 
 /// What is proved of the solutions listed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Status {
     /// They are all.
+    #[default]
     Complete,
     /// There may be more in the parts that are undecided.
     Partial,
@@ -64,7 +65,7 @@ pub struct Part {
 }
 
 /// All solutions of a problem, or what is known of them.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct Complete {
     /// What is proved.
     pub status: Status,
@@ -194,9 +195,10 @@ pub enum Unserved {
 }
 
 /// How the figures were searched.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Method {
     /// Over the driving parameters of a construction plan.
+    #[default]
     Plan,
     /// Over all coordinates.
     Coordinates,
@@ -357,29 +359,11 @@ impl Complete {
     /// No solution, for a reason that needs no search.
     pub(super) fn empty(problem: &Problem, reason: String, begin: Instant) -> Self {
         Complete {
-            status: Status::Complete,
-            method: Method::Plan,
-            symmetry: Symmetry::Isometries,
             count: Some(0),
-            parts: Vec::new(),
-            choices: Vec::new(),
-            first_choice: None,
-            both_ways: Vec::new(),
-            turned: Vec::new(),
-            solutions: Vec::new(),
-            tested: None,
-            signed: None,
             reference: problem.homotopy.reference.clone(),
-            undecided: Vec::new(),
             reason: Some(reason),
-            boxes: 0,
-            driving: 0,
-            constructed: None,
-            complex: None,
-            plan: Vec::new(),
             seconds: begin.elapsed().as_secs_f64(),
-            seconds_left: None,
-            cover: None,
+            ..Complete::default()
         }
     }
 
