@@ -64,6 +64,18 @@ pub struct Part {
     pub share: f64,
 }
 
+/// Whether a search that leaves these parts undecided was ended before it came to all.
+pub(super) fn is_open(undecided: &[Part]) -> bool {
+    undecided.iter().any(|part| part.why == Why::Unfinished)
+}
+
+/// The share that a search which leaves these parts undecided did not come to.
+pub(super) fn open_share(undecided: &[Part]) -> f64 {
+    let parts = undecided.iter();
+    let open = parts.filter(|part| part.why == Why::Unfinished);
+    open.map(|part| part.share).sum()
+}
+
 /// All solutions of a problem, or what is known of them.
 #[derive(Debug, Clone, Default)]
 pub struct Complete {
@@ -345,7 +357,7 @@ impl Options<'_> {
 impl Complete {
     /// Whether the search was ended before it came to all.
     pub fn was_ended(&self) -> bool {
-        self.undecided.iter().any(|p| p.why == Why::Unfinished)
+        is_open(&self.undecided)
     }
 
     /// Of a search that was ended: how long the rest may take.
@@ -417,38 +429,16 @@ impl Complete {
     }
 
     /// From what a search found.
-    pub(super) fn new(
-        problem: &Problem,
-        search: &Search,
-        mut found: Found,
-        begin: Instant,
-    ) -> Self {
+    pub(super) fn new(problem: &Problem, search: &Search, found: Found, begin: Instant) -> Self {
         let dimension = problem.dimension;
         let mut reason = None;
-        let mut undecided: Vec<Part> = Vec::new();
-        for part in &found.undecided {
-            leave(&mut undecided, part.why, 1, part.share);
-        }
+        let mut undecided = found.undecided;
         undecided.order_by_key(|part| part.why);
-        let mut kept = 0;
-        for part in &mut undecided {
-            if part.why == Why::Unfinished {
-                part.count = found.unfinished;
-            }
-            kept += part.count;
-        }
-        // Those that were not kept one by one are counted with the first other reason that there is.
-        if let Some(other) = undecided
-            .iter_mut()
-            .find(|part| part.why != Why::Unfinished)
-        {
-            other.count += found.undecided_count.saturating_sub(kept);
-        }
+        let is_searched = undecided.is_empty();
         let figures = different(&found.figures, dimension);
         let apart = figures.is_err();
         let figures = figures.unwrap_or_default();
-        let marks = std::mem::take(&mut found.marks);
-        let cover = super::cover::file(problem, search, &figures, marks);
+        let cover = super::cover::file(problem, search, &figures, found.marks);
         let mut solutions = Vec::new();
         let mut reference = problem.homotopy.reference.clone();
         for reference_tried in [&problem.homotopy.reference, &search.plan.base] {
@@ -477,7 +467,7 @@ impl Complete {
                 leave(&mut undecided, Why::Apart, 1, 0.0);
             }
         }
-        if found.undecided_count > 0 {
+        if !is_searched {
             status = Status::of(&undecided);
         }
         if status == Status::Complete && solutions.is_empty() {

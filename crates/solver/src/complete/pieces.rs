@@ -4,6 +4,7 @@
 //! found is put together in the order of the search, so that the answer and the cover are those of one run.
 
 use super::node::Node;
+use super::outcome::{is_open, open_share};
 use super::search::{Run, Search};
 use super::store::{Keep, Piece, Store};
 use super::visit::{Found, Why};
@@ -113,7 +114,7 @@ impl Piece for Found {
     type Name = usize;
 
     fn is_done(&self) -> bool {
-        self.unfinished == 0
+        !is_open(&self.undecided)
     }
 }
 
@@ -149,9 +150,7 @@ impl Search {
             .map(|(piece, node)| {
                 let found = self.below(run, node.clone());
                 if !found.is_done() {
-                    let open = found.undecided.iter();
-                    let open = open.filter(|part| part.why == Why::Unfinished);
-                    run.add_lost(node.share - open.map(|part| part.share).sum::<f64>());
+                    run.add_lost(node.share - open_share(&found.undecided));
                 }
                 let put = match (found.is_done(), store.lock()) {
                     (true, Ok(mut store)) => store.put(&piece, &found),

@@ -22,7 +22,7 @@ const NAME: &str = "parts.krawl-all";
 const KIND: &str = "parts of a search for all solutions";
 /// The format of the file, and of what its parts rest on: to be raised with every change of what a search proves, as
 /// parts that were done before are believed.
-const VERSION: u32 = 10;
+const VERSION: u32 = 11;
 
 /// Where parts of a search are kept, and which this process works on.
 #[derive(Debug, Clone, Default)]

@@ -60,8 +60,8 @@ use kept::Kept;
 use oriented::Oriented;
 use poses::Poses;
 pub use ranged::ranged;
-pub(super) use search::leave;
 use search::{Block, Found, Run, ranges};
+pub(super) use search::{leave, leave_all};
 use sides::Sides;
 use std::collections::{BTreeSet, HashMap};
 use std::rc::Rc;
@@ -437,14 +437,7 @@ impl<'a> Figures<'a> {
 
     /// Leaves open what a block's search left so, of a share of what is searched; what of the share comes to each of its zeros, in equal parts.
     fn share_out(&mut self, found: &Found, share: f64) -> f64 {
-        for part in &found.undecided {
-            leave(
-                &mut self.undecided,
-                part.why,
-                part.count,
-                share * part.share,
-            );
-        }
+        leave_all(&mut self.undecided, &found.undecided, share);
         let open: f64 = found.undecided.iter().map(|part| part.share).sum();
         share * (1.0 - open).max(0.0) / found.zeros.len().max(1) as f64
     }

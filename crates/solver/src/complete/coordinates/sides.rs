@@ -121,18 +121,7 @@ impl Sides<'_, '_> {
             told: told.in_numbers(),
         };
         let here = block.search_all(&about, more, x.clone(), &own);
-        found.boxes += here.boxes;
-        found.cut += here.cut;
-        found.is_broken_off |= here.is_broken_off;
-        found.constructed = found.constructed.max(here.constructed);
-        for part in here.undecided {
-            leave(
-                &mut found.undecided,
-                part.why,
-                part.count,
-                share * part.share,
-            );
-        }
+        found.append(&here, share);
         let unknowns = &self.whole.square.own;
         let values = told.values().filter(|(i, _)| unknowns.contains(i));
         let values = Arc::new(values.map(|(i, x)| (i, x.clone())).collect());
