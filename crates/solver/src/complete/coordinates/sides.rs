@@ -136,10 +136,7 @@ impl Sides<'_, '_> {
                 continue;
             };
             // Newton's method may have left the side for another one, where values are others.
-            let mut at = x.clone();
-            for (k, &u) in unknowns.iter().enumerate() {
-                at[u] = zero.range(k);
-            }
+            let at = self.whole.square.with(&x, |k| zero.range(k));
             let is_here = !elsewhere.iter().any(|row| row.value(&at).contains(0.0));
             let values = match is_here {
                 true => Arc::clone(&values),
