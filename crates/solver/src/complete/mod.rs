@@ -204,7 +204,7 @@ fn kept(
     let outline = Outline::new(&search, run);
     let digest = outline.digest();
     let plan = Some(&search.plan);
-    store.begin(Head::new(problem, plan, run.cover, digest))?;
+    store.begin(Head::new(problem, plan, run.cover, digest), keep)?;
     let found = search.kept(run, outline, keep, store)?;
     Ok(Ok((search, found)))
 }

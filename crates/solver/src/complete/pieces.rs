@@ -127,10 +127,6 @@ impl Search {
         keep: &Keep,
         mut store: Store<Found>,
     ) -> Result<Found, String> {
-        for other in &keep.merge {
-            store.merge(other)?;
-        }
-        let [which, of] = keep.share.unwrap_or([1, 1]);
         let known = std::mem::take(&mut store.done);
         let mut todo = Vec::new();
         for (piece, &entry) in outline.pieces.iter().enumerate() {
@@ -139,7 +135,7 @@ impl Search {
             };
             if known.contains_key(&piece) {
                 run.add_done(node.share);
-            } else if piece % of + 1 == which {
+            } else if keep.is_mine(piece) {
                 todo.push((piece, node));
             }
         }

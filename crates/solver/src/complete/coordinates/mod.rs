@@ -544,7 +544,7 @@ impl<'a> Figures<'a> {
     /// How a block that needs these zeros is searched where others share the search: all of it, if a piece of this share had one of
     /// them; the pieces of this share, if all who share the search find them; not at all (`None`), if others do it.
     fn whose(&self, before: &[(usize, usize)]) -> Option<bool> {
-        if self.kept.is_none_or(Kept::is_all) {
+        if self.kept.is_none_or(|kept| kept.keep.is_all()) {
             return Some(false);
         }
         let mut is_whole = false;
@@ -556,7 +556,7 @@ impl<'a> Figures<'a> {
                 .collect();
             let found = self.known.get(&(c, needed))?;
             match (found.pieces[zero], self.kept) {
-                (Some(piece), Some(kept)) if kept.is_mine(piece) => is_whole = true,
+                (Some(piece), Some(kept)) if kept.keep.is_mine(piece) => is_whole = true,
                 (Some(_), Some(_)) => return None,
                 _ => {}
             }

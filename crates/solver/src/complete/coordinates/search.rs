@@ -266,7 +266,7 @@ impl<'a> Block<'a> {
             run.watched.add_done_before(run.weight * share);
             return found;
         }
-        if !run.is_whole && !kept.is_mine(number) {
+        if !run.is_whole && !kept.keep.is_mine(number) {
             return Found::missing(share);
         }
         let found = searched(node);
