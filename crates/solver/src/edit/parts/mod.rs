@@ -256,11 +256,6 @@ impl Parts {
         all.map(blocks).collect()
     }
 
-    /// The figure in the coordinates of the problem.
-    pub fn points(&self) -> Vec<[Interval; 3]> {
-        self.points_of(&self.figure)
-    }
-
     fn distance(&self, figure: &Figure) -> f64 {
         let apart = furthest(&self.points(), &self.points_of(figure));
         // Where nothing moved the enclosures are of one and the same point.
