@@ -135,8 +135,7 @@ impl Surplus {
         let (d, n) = (problem.dimension, problem.points.len());
         let needed = free_coordinates(d, n);
         let edges: Vec<[usize; 2]> = problem.distances.iter().map(|d| d.points).collect();
-        let is_it = problem.objects.is_empty() && problem.constraints.is_empty();
-        let may_be = is_it && n <= MOST_POINTS && edges.len() > needed;
+        let may_be = problem.is_distances_only() && n <= MOST_POINTS && edges.len() > needed;
         if !may_be || rigidity(d, n, &edges).rank < needed {
             return None;
         }
