@@ -134,7 +134,7 @@ impl Setting {
     }
 
     /// What a dimension of a problem is.
-    pub(super) fn now(problem: &Problem, index: usize) -> Self {
+    pub(crate) fn now(problem: &Problem, index: usize) -> Self {
         let target = match index.checked_sub(problem.distances.len()) {
             None => problem.distances[index].target.clone(),
             Some(c) => {
