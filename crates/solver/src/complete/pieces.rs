@@ -7,7 +7,7 @@ use super::node::Node;
 use super::outcome::{is_open, open_share};
 use super::search::{Run, Search};
 use super::store::{Keep, Piece, Store};
-use super::visit::{Found, Why};
+use super::visit::Found;
 use crate::hexadecimal::hexadecimal;
 use rayon::prelude::*;
 use sha2::{Digest, Sha256};
@@ -96,11 +96,7 @@ impl Outline {
                 }
                 Some(Entry::Piece(node)) => {
                     let found = found_in(piece_of[which]);
-                    parts.push(found.unwrap_or_else(|| {
-                        let mut open = Found::begun(cover);
-                        open.leave(node.share, Why::Unfinished);
-                        open
-                    }));
+                    parts.push(found.unwrap_or_else(|| Found::missing(cover, node.share)));
                 }
                 None => {}
             }
@@ -144,7 +140,7 @@ impl Search {
         let worked: Vec<(usize, Result<Found, String>)> = todo
             .into_par_iter()
             .map(|(piece, node)| {
-                let found = self.below(run, node.clone());
+                let found = self.descend(run, node.clone(), 0);
                 if !found.is_done() {
                     run.add_lost(node.share - open_share(&found.undecided));
                 }

@@ -71,6 +71,13 @@ impl Found {
         found
     }
 
+    /// Nothing was looked at, of such a share.
+    pub fn missing(cover: bool, share: f64) -> Self {
+        let mut found = Found::begun(cover);
+        found.leave(share, Why::Unfinished);
+        found
+    }
+
     /// Notes a part that stays undecided.
     pub fn leave(&mut self, share: f64, why: Why) {
         self.marks.put(Mark::Undecided, 0);
@@ -394,8 +401,7 @@ impl<'a, const D: usize, const S: usize, const M: usize> Visit<'a, D, S, M> {
                     return;
                 }
                 None if self.node.depth.is_multiple_of(4) && search.flexes(&guess) => {
-                    let share = self.node.share;
-                    return self.found.leave(share, Why::Flexible);
+                    return self.found.leave(self.node.share, Why::Flexible);
                 }
                 _ => {}
             }
@@ -431,8 +437,7 @@ impl<'a, const D: usize, const S: usize, const M: usize> Visit<'a, D, S, M> {
             }
         }
         let Some((symbol, _)) = best else {
-            let share = self.node.share;
-            return self.found.leave(share, Why::Small);
+            return self.found.leave(self.node.share, Why::Small);
         };
         self.found.marks.put(Mark::Halves(step, with, symbol), S);
         self.children.extend(self.node.parted(symbol));
