@@ -9,7 +9,7 @@ use crate::blocks::Account;
 use crate::constraint::try_lower_apart;
 use crate::elimination::invert;
 use crate::interval::{Interval, hull, point};
-use crate::problem::{Decimal, Problem, Target};
+use crate::problem::{Decimal, Problem};
 use crate::system::{Homotopy, Right};
 use crate::track::{Control, Options, StartError};
 use std::slice;
@@ -69,11 +69,7 @@ impl Limited {
         for one in limits {
             let mut ends = Vec::new();
             for value in &one.values {
-                let target = Target::Length(value.clone());
-                ends.push(whole.rights_with(&Setting {
-                    index: one.index,
-                    target,
-                })?);
+                ends.push(whole.rights_with(&Setting::to(one.index, value.clone()))?);
             }
             let now = whole.rights_now();
             let [low, high] = [&ends[0], &ends[1]];
@@ -284,10 +280,7 @@ impl Within {
     ) -> Option<Vec<[Interval; 3]>> {
         let limits = self.limited.limits.iter().enumerate();
         let settings: Vec<Setting> = limits
-            .map(|(k, one)| Setting {
-                index: one.index,
-                target: Target::Length(one.values[usize::from(greatest(k))].clone()),
-            })
+            .map(|(k, one)| Setting::to(one.index, one.values[usize::from(greatest(k))].clone()))
             .collect();
         let edited = self.limited.whole.edit(&settings, Keep::Never, control);
         match edited {
