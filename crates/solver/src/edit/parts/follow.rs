@@ -120,12 +120,8 @@ impl Parts {
                 .copied()
                 .filter(|&b| !self.cut.is_exact[b])
                 .collect();
-            if let Some(&first) = of.first() {
-                for &b in &of {
-                    sets.join([b, first]);
-                }
-                taken.extend(of);
-            }
+            sets.join_all(&of);
+            taken.extend(of);
         }
         let with_needs = self.cut.blocks.with_needs(taken);
         let not_exact: Vec<usize> = with_needs
