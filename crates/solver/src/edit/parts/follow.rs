@@ -4,6 +4,7 @@ use super::exact::{is_positive, value_at};
 use super::{Parts, Used, moves, put};
 use crate::constraint::{Entry, Equation, Form, Product, Role, value};
 use crate::interval::{Interval, Real, hull, point};
+use crate::order::add_new;
 use crate::sets::Joined;
 use crate::system::{Homotopy, Part, Right};
 use crate::track::arc::{ArcEnd, ArcRun, Figure, Fold};
@@ -296,9 +297,7 @@ impl Parts {
         };
         for run in &runs {
             for remark in &run.run.switched_on {
-                if !out.switched_on.contains(remark) {
-                    out.switched_on.push(remark.clone());
-                }
+                add_new(&mut out.switched_on, remark.clone());
             }
             out.orientations
                 .extend(run.run.orientations.iter().cloned());
