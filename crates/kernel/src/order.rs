@@ -37,6 +37,13 @@ pub fn each_once<T: Ord>(all: impl IntoIterator<Item = T>) -> Vec<T> {
     all
 }
 
+/// Adds a value to a list, unless it has it.
+pub fn add_new<T: PartialEq>(to: &mut Vec<T>, value: T) {
+    if !to.contains(&value) {
+        to.push(value);
+    }
+}
+
 /// The numbers below `count` in an order.
 fn sorted(count: usize, order: &dyn Fn(usize, usize) -> Ordering) -> Vec<usize> {
     let mut places: Vec<usize> = (0..count).collect();

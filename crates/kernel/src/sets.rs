@@ -32,6 +32,13 @@ impl Joined {
         self.0[a] = b;
         a != b
     }
+
+    /// Joins the sets of all of these.
+    pub fn join_all(&mut self, all: &[usize]) {
+        for pair in all.windows(2) {
+            self.join([pair[0], pair[1]]);
+        }
+    }
 }
 
 #[cfg(test)]

@@ -6,6 +6,7 @@
 
 use super::whose::Whose;
 use crate::interval::{Interval, hull, point};
+use crate::order::add_new;
 use crate::problem::{Decimal, Problem, either};
 use serde::{Deserialize, Serialize};
 
@@ -177,9 +178,7 @@ impl Account {
             self.leave_out(one.name.clone(), one.verdict);
         }
         for added in &other.added {
-            if !self.added.contains(added) {
-                self.added.push(added.clone());
-            }
+            add_new(&mut self.added, added.clone());
         }
         for held in &other.held {
             if !self.held.iter().any(|own| own.what == held.what) {

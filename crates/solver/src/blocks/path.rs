@@ -5,7 +5,7 @@ use super::local::is_length;
 use super::number::Number;
 use crate::constraint::{Entry, Equation, Form, Product, value};
 use crate::interval::{Real, point};
-use crate::order::InOrder;
+use crate::order::{InOrder, add_new};
 use crate::rational::Rational;
 use crate::system::{Homotopy, Part};
 use crate::track::arc::{ArcEnd, Figure};
@@ -164,9 +164,7 @@ fn homotopy(
     let mut all = block.unknowns.clone();
     for &row in &rows {
         for &u in &cut.system.rows[row].unknowns {
-            if !all.contains(&u) {
-                all.push(u);
-            }
+            add_new(&mut all, u);
         }
     }
     let local: HashMap<usize, usize> = all.iter().enumerate().map(|(k, &u)| (u, k)).collect();

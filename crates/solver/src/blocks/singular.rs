@@ -1,7 +1,7 @@
 //! What is said of a singular drawing.
 
 use super::System;
-use crate::order::InOrder;
+use crate::order::{InOrder, add_new};
 use crate::places::Each as _;
 use crate::problem::{Problem, list};
 use nalgebra::Vector3;
@@ -36,11 +36,7 @@ impl Singular {
         names: impl Iterator<Item = String>,
     ) -> Self {
         let mut constraints: Vec<String> = Vec::new();
-        for name in names {
-            if !constraints.contains(&name) {
-                constraints.push(name);
-            }
-        }
+        names.for_each(|name| add_new(&mut constraints, name));
         Singular {
             constraints,
             flat: flat(problem, system, rows),

@@ -15,7 +15,7 @@ use super::follows::{Given, combination};
 use super::whose::Whose;
 use super::{Choice, FINE, LEAST_PART, System};
 use crate::interval::{enclose_rational, point};
-use crate::order::InOrder;
+use crate::order::{InOrder, add_new};
 use crate::problem::{Problem, list};
 use crate::system::typical_length;
 use nalgebra::DVector;
@@ -215,10 +215,7 @@ pub fn surplus(problem: &Problem) -> Result<Census, String> {
                 OBJECT | FIXED | COINCIDENT => &mut one.besides,
                 _ => &mut one.others,
             };
-            let name = owners[k].name(&problem);
-            if !into.contains(&name) {
-                into.push(name);
-            }
+            add_new(into, owners[k].name(&problem));
         }
     }
     let all = found.into_iter().map(|(owner, (mut one, count))| {

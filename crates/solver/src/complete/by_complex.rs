@@ -42,13 +42,9 @@ pub(super) fn all(problem: &Problem, options: &Options) -> Option<Result<Complet
     };
     let search = |most_boxes: u64| {
         let within = Options {
-            cancel: options.cancel,
             time: left(),
             most_boxes,
-            threads: options.threads,
-            redundant_tolerance: options.redundant_tolerance,
-            progress: options.progress,
-            ..Options::default()
+            ..options.clone()
         };
         coordinates::all(problem, &within)
     };
@@ -59,10 +55,8 @@ pub(super) fn all(problem: &Problem, options: &Options) -> Option<Result<Complet
     let stop = AtomicBool::new(false);
     // What is told of a search of boxes is not told of paths.
     let untold = Options {
-        cancel: options.cancel,
-        time: options.time,
-        threads: options.threads,
-        ..Options::default()
+        progress: None,
+        ..options.clone()
     };
     let run = Run::new(&stop, &untold, false);
     let real = untold.watched(&run, begin, || {

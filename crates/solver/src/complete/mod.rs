@@ -70,7 +70,7 @@ use search::{Run, Search, Unfit};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::Instant;
-use store::{Head, Store};
+use store::{Head, Piece as _, Store};
 use targets::Targets;
 use visit::Found;
 
@@ -204,7 +204,7 @@ fn kept(
     let outline = Outline::new(&search, run);
     let digest = outline.digest();
     let plan = Some(&search.plan);
-    store.begin(Head::new(problem, plan, run.cover, digest))?;
+    store.begin(Head::new(problem, plan, run.cover, digest), keep)?;
     let found = search.kept(run, outline, keep, store)?;
     Ok(Ok((search, found)))
 }
@@ -255,7 +255,7 @@ fn chosen(
             };
             let found = searches[which].run(&trial);
             // What a search has looked at when it is through does not depend on the threads.
-            if found.unfinished == 0 && found.boxes <= trial.most_boxes {
+            if found.is_done() && found.boxes <= trial.most_boxes {
                 return Ok((searches.swap_remove(which), Some(found)));
             }
         }

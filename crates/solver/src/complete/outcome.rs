@@ -21,9 +21,10 @@ use std::thread::Thread;
 use std::time::{Duration, Instant};
 
 /// What is proved of the solutions listed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Status {
     /// They are all.
+    #[default]
     Complete,
     /// There may be more in the parts that are undecided.
     Partial,
@@ -63,8 +64,20 @@ pub struct Part {
     pub share: f64,
 }
 
+/// Whether a search that leaves these parts undecided was ended before it came to all.
+pub(super) fn is_open(undecided: &[Part]) -> bool {
+    undecided.iter().any(|part| part.why == Why::Unfinished)
+}
+
+/// The share that a search which leaves these parts undecided did not come to.
+pub(super) fn open_share(undecided: &[Part]) -> f64 {
+    let parts = undecided.iter();
+    let open = parts.filter(|part| part.why == Why::Unfinished);
+    open.map(|part| part.share).sum()
+}
+
 /// All solutions of a problem, or what is known of them.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct Complete {
     /// What is proved.
     pub status: Status,
@@ -194,9 +207,10 @@ pub enum Unserved {
 }
 
 /// How the figures were searched.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Method {
     /// Over the driving parameters of a construction plan.
+    #[default]
     Plan,
     /// Over all coordinates.
     Coordinates,
@@ -230,6 +244,7 @@ pub struct Progress {
 }
 
 /// What a search may take, and whom it tells.
+#[derive(Clone)]
 pub struct Options<'a> {
     /// Ends the search from outside.
     pub cancel: Option<&'a AtomicBool>,
@@ -342,7 +357,7 @@ impl Options<'_> {
 impl Complete {
     /// Whether the search was ended before it came to all.
     pub fn was_ended(&self) -> bool {
-        self.undecided.iter().any(|p| p.why == Why::Unfinished)
+        is_open(&self.undecided)
     }
 
     /// Of a search that was ended: how long the rest may take.
@@ -356,29 +371,11 @@ impl Complete {
     /// No solution, for a reason that needs no search.
     pub(super) fn empty(problem: &Problem, reason: String, begin: Instant) -> Self {
         Complete {
-            status: Status::Complete,
-            method: Method::Plan,
-            symmetry: Symmetry::Isometries,
             count: Some(0),
-            parts: Vec::new(),
-            choices: Vec::new(),
-            first_choice: None,
-            both_ways: Vec::new(),
-            turned: Vec::new(),
-            solutions: Vec::new(),
-            tested: None,
-            signed: None,
             reference: problem.homotopy.reference.clone(),
-            undecided: Vec::new(),
             reason: Some(reason),
-            boxes: 0,
-            driving: 0,
-            constructed: None,
-            complex: None,
-            plan: Vec::new(),
             seconds: begin.elapsed().as_secs_f64(),
-            seconds_left: None,
-            cover: None,
+            ..Complete::default()
         }
     }
 
@@ -432,38 +429,16 @@ impl Complete {
     }
 
     /// From what a search found.
-    pub(super) fn new(
-        problem: &Problem,
-        search: &Search,
-        mut found: Found,
-        begin: Instant,
-    ) -> Self {
+    pub(super) fn new(problem: &Problem, search: &Search, found: Found, begin: Instant) -> Self {
         let dimension = problem.dimension;
         let mut reason = None;
-        let mut undecided: Vec<Part> = Vec::new();
-        for part in &found.undecided {
-            leave(&mut undecided, part.why, 1, part.share);
-        }
+        let mut undecided = found.undecided;
         undecided.order_by_key(|part| part.why);
-        let mut kept = 0;
-        for part in &mut undecided {
-            if part.why == Why::Unfinished {
-                part.count = found.unfinished;
-            }
-            kept += part.count;
-        }
-        // Those that were not kept one by one are counted with the first other reason that there is.
-        if let Some(other) = undecided
-            .iter_mut()
-            .find(|part| part.why != Why::Unfinished)
-        {
-            other.count += found.undecided_count.saturating_sub(kept);
-        }
+        let is_searched = undecided.is_empty();
         let figures = different(&found.figures, dimension);
         let apart = figures.is_err();
         let figures = figures.unwrap_or_default();
-        let marks = std::mem::take(&mut found.marks);
-        let cover = super::cover::file(problem, search, &figures, marks);
+        let cover = super::cover::file(problem, search, &figures, found.marks);
         let mut solutions = Vec::new();
         let mut reference = problem.homotopy.reference.clone();
         for reference_tried in [&problem.homotopy.reference, &search.plan.base] {
@@ -492,7 +467,7 @@ impl Complete {
                 leave(&mut undecided, Why::Apart, 1, 0.0);
             }
         }
-        if found.undecided_count > 0 {
+        if !is_searched {
             status = Status::of(&undecided);
         }
         if status == Status::Complete && solutions.is_empty() {

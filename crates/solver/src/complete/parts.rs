@@ -139,10 +139,10 @@ fn put_together(
     if !combined.has_all_mirror_images() {
         // Then combinations are not counted once each.
         whole.count = Some(0);
-        leave(
-            whole,
-            "a part may be flat, so that it is its own mirror image",
-        );
+        whole.leave(Why::Apart, 1);
+        whole.reason.get_or_insert_with(|| {
+            "a part may be flat, so that it is its own mirror image".to_owned()
+        });
         return Some(());
     }
     let mut signed = parts_signed(problem, parts);
@@ -177,18 +177,15 @@ fn put_together(
 
 /// What the parts have come to by signs of their own, and how many signs are asked for in all.
 fn parts_signed(problem: &Problem, parts: &[Searched]) -> Signed {
-    let of_parts = parts.iter().filter_map(|part| part.result.signed);
-    of_parts.fold(
-        Signed {
-            asked: problem.orientations.len(),
-            ..Signed::default()
-        },
-        |all, one| Signed {
-            cut: all.cut + one.cut,
-            wrong: all.wrong + one.wrong,
-            ..all
-        },
-    )
+    let mut all = Signed {
+        asked: problem.orientations.len(),
+        ..Signed::default()
+    };
+    for one in parts.iter().filter_map(|part| part.result.signed) {
+        all.cut += one.cut;
+        all.wrong += one.wrong;
+    }
+    all
 }
 
 /// The signs that are asked for of points that are in no part together.
@@ -233,13 +230,4 @@ fn one_by_one(combined: &Combined, across: &Signs, mut signed: Signed, whole: &m
     if signed.undecided > 0 {
         whole.leave(Why::Sign, signed.undecided);
     }
-}
-
-/// Takes the claim back.
-fn leave(whole: &mut Complete, reason: &str) {
-    if whole.status == Status::Complete {
-        whole.status = Status::Partial;
-    }
-    whole.reason.get_or_insert_with(|| reason.to_owned());
-    super::coordinates::leave(&mut whole.undecided, Why::Apart, 1, 0.0);
 }

@@ -4,9 +4,10 @@
 //! found is put together in the order of the search, so that the answer and the cover are those of one run.
 
 use super::node::Node;
+use super::outcome::{is_open, open_share};
 use super::search::{Run, Search};
 use super::store::{Keep, Piece, Store};
-use super::visit::{Found, Why};
+use super::visit::Found;
 use crate::hexadecimal::hexadecimal;
 use rayon::prelude::*;
 use sha2::{Digest, Sha256};
@@ -95,11 +96,7 @@ impl Outline {
                 }
                 Some(Entry::Piece(node)) => {
                     let found = found_in(piece_of[which]);
-                    parts.push(found.unwrap_or_else(|| {
-                        let mut open = Found::begun(cover);
-                        open.leave(node.share, Why::Unfinished);
-                        open
-                    }));
+                    parts.push(found.unwrap_or_else(|| Found::missing(cover, node.share)));
                 }
                 None => {}
             }
@@ -113,7 +110,7 @@ impl Piece for Found {
     type Name = usize;
 
     fn is_done(&self) -> bool {
-        self.unfinished == 0
+        !is_open(&self.undecided)
     }
 }
 
@@ -126,10 +123,6 @@ impl Search {
         keep: &Keep,
         mut store: Store<Found>,
     ) -> Result<Found, String> {
-        for other in &keep.merge {
-            store.merge(other)?;
-        }
-        let [which, of] = keep.share.unwrap_or([1, 1]);
         let known = std::mem::take(&mut store.done);
         let mut todo = Vec::new();
         for (piece, &entry) in outline.pieces.iter().enumerate() {
@@ -138,7 +131,7 @@ impl Search {
             };
             if known.contains_key(&piece) {
                 run.add_done(node.share);
-            } else if piece % of + 1 == which {
+            } else if keep.is_mine(piece) {
                 todo.push((piece, node));
             }
         }
@@ -147,11 +140,9 @@ impl Search {
         let worked: Vec<(usize, Result<Found, String>)> = todo
             .into_par_iter()
             .map(|(piece, node)| {
-                let found = self.below(run, node.clone());
+                let found = self.descend(run, node.clone(), 0);
                 if !found.is_done() {
-                    let open = found.undecided.iter();
-                    let open = open.filter(|part| part.why == Why::Unfinished);
-                    run.add_lost(node.share - open.map(|part| part.share).sum::<f64>());
+                    run.add_lost(node.share - open_share(&found.undecided));
                 }
                 let put = match (found.is_done(), store.lock()) {
                     (true, Ok(mut store)) => store.put(&piece, &found),

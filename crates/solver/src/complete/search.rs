@@ -165,15 +165,17 @@ impl Search {
         }
     }
 
-    fn descend(&self, run: &Run, node: Node, depth: usize) -> Found {
-        let mut found = Found::begun(run.cover);
+    /// All below a part, which is so deep in what is searched.
+    pub fn descend(&self, run: &Run, node: Node, depth: usize) -> Found {
         if depth >= TASK_DEPTH || rayon::current_num_threads() == 1 {
+            let mut found = Found::begun(run.cover);
             self.subtree(run, node, &mut found);
             return found;
         }
-        let mut children = Vec::new();
-        self.look(run, node, &mut found, &mut children);
-        run.boxes.fetch_add(1, Ordering::Relaxed);
+        if run.stop.load(Ordering::Relaxed) || run.boxes.load(Ordering::Relaxed) > run.most_boxes {
+            return Found::missing(run.cover, node.share);
+        }
+        let (mut found, children) = self.one(run, node);
         for part in self.each(run, children, depth + 1) {
             found.append(part);
         }
@@ -194,8 +196,7 @@ impl Search {
                 ended = run.stop.load(Ordering::Relaxed) || all > run.most_boxes;
             }
             if ended {
-                let share = node.share;
-                found.leave(share, Why::Unfinished);
+                found.leave(node.share, Why::Unfinished);
                 continue;
             }
             self.look_at(node, run, &mut rooms, found, &mut children);
@@ -204,25 +205,12 @@ impl Search {
         run.boxes.fetch_add(count, Ordering::Relaxed);
     }
 
-    /// All below a part.
-    pub fn below(&self, run: &Run, node: Node) -> Found {
-        self.descend(run, node, 0)
-    }
-
     /// One part, and those that it is parted into.
     pub fn one(&self, run: &Run, node: Node) -> (Found, Vec<Node>) {
         let (mut found, mut children) = (Found::begun(run.cover), Vec::new());
         self.look_at(node, run, &mut Rooms::default(), &mut found, &mut children);
         run.boxes.fetch_add(1, Ordering::Relaxed);
         (found, children)
-    }
-
-    fn look(&self, run: &Run, node: Node, found: &mut Found, children: &mut Vec<Node>) {
-        if run.stop.load(Ordering::Relaxed) || run.boxes.load(Ordering::Relaxed) > run.most_boxes {
-            let share = node.share;
-            return found.leave(share, Why::Unfinished);
-        }
-        self.look_at(node, run, &mut Rooms::default(), found, children);
     }
 
     fn look_at(

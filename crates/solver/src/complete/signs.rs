@@ -1,7 +1,8 @@
 //! The figures of a search that have the signs that the problem asks for.
 
+use super::coordinates::leave;
 use super::outcome::are_apart;
-use super::{Complete, Part, Status, Why};
+use super::{Complete, Status, Why};
 use crate::constraint::Symmetry;
 use crate::order::InOrder;
 use crate::problem::Problem;
@@ -65,11 +66,7 @@ impl Complete {
         if self.status == Status::Complete {
             self.status = Status::Partial;
         }
-        self.undecided.push(Part {
-            why,
-            count,
-            share: 0.0,
-        });
+        leave(&mut self.undecided, why, count, 0.0);
         self.undecided.order_by_key(|part| part.why);
     }
 }

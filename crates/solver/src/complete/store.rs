@@ -22,7 +22,7 @@ const NAME: &str = "parts.krawl-all";
 const KIND: &str = "parts of a search for all solutions";
 /// The format of the file, and of what its parts rest on: to be raised with every change of what a search proves, as
 /// parts that were done before are believed.
-const VERSION: u32 = 10;
+const VERSION: u32 = 11;
 
 /// Where parts of a search are kept, and which this process works on.
 #[derive(Debug, Clone, Default)]
@@ -56,6 +56,19 @@ pub(super) trait Piece: Serialize + DeserializeOwned {
 
     /// Whether the piece was searched to its end.
     fn is_done(&self) -> bool;
+}
+
+impl Keep {
+    /// Whether a piece, by number, is of the share that is worked on.
+    pub(super) fn is_mine(&self, piece: usize) -> bool {
+        let [which, of] = self.share.unwrap_or([1, 1]);
+        piece % of + 1 == which
+    }
+
+    /// Whether all pieces are of it.
+    pub(super) fn is_all(&self) -> bool {
+        self.share.is_none_or(|share| share == [1, 1])
+    }
 }
 
 #[derive(Serialize, Deserialize)]
@@ -220,8 +233,8 @@ impl<F: Piece> Store<F> {
         format!("{}: {what}", self.path.display())
     }
 
-    /// Says what search it is about: that is written if the store is new, and has to agree if it is not.
-    pub(super) fn begin(&mut self, head: Head) -> Result<(), String> {
+    /// Says what search it is about: that is written if the store is new, and has to agree if it is not. Then takes over what others have.
+    pub(super) fn begin(&mut self, head: Head, keep: &Keep) -> Result<(), String> {
         match &self.head {
             Some(known) if *known == head => {}
             Some(_) => {
@@ -236,11 +249,11 @@ impl<F: Piece> Store<F> {
                 self.head = Some(head);
             }
         }
-        Ok(())
+        keep.merge.iter().try_for_each(|other| self.merge(other))
     }
 
     /// Takes over what another store of the same search has. Begun must be both.
-    pub(super) fn merge(&mut self, other: &Path) -> Result<(), String> {
+    fn merge(&mut self, other: &Path) -> Result<(), String> {
         let path = match other.is_dir() {
             true => other.join(NAME),
             false => other.to_owned(),

@@ -9,6 +9,7 @@ use super::{Complete, Options, Unserved, all};
 use crate::blocks::{Account, LeftOut, MOST_POINTS, Ruler, Verdict, Whose};
 use crate::interval::{Interval, point};
 use crate::linalg::Span;
+use crate::order::add_new;
 use crate::places::Each as _;
 use crate::problem::{Distance, Problem, Target, free_coordinates, rigidity, rigidity_row};
 use crate::system::typical_length;
@@ -135,8 +136,7 @@ impl Surplus {
         let (d, n) = (problem.dimension, problem.points.len());
         let needed = free_coordinates(d, n);
         let edges: Vec<[usize; 2]> = problem.distances.iter().map(|d| d.points).collect();
-        let is_it = problem.objects.is_empty() && problem.constraints.is_empty();
-        let may_be = is_it && n <= MOST_POINTS && edges.len() > needed;
+        let may_be = problem.is_distances_only() && n <= MOST_POINTS && edges.len() > needed;
         if !may_be || rigidity(d, n, &edges).rank < needed {
             return None;
         }
@@ -236,9 +236,7 @@ impl Surplus {
             account.equations = self.used();
         }
         for added in &self.added {
-            if !account.added.contains(added) {
-                account.added.push(added.clone());
-            }
+            add_new(&mut account.added, added.clone());
         }
         let verdicts: Vec<Verdict> = match figure {
             Some(figure) => self.account(figure).iter().map(|one| one.verdict).collect(),

@@ -2,10 +2,12 @@
 //! part, a figure is proved, or the part has to be parted.
 
 use super::contract::contract;
+use super::coordinates::{leave, leave_all};
 use super::cover::Marks;
 use super::krawczyk::Figure;
 use super::model::{Model, Range};
 use super::node::{MAX_SYMBOLS, Node, Sign};
+use super::outcome::Part;
 use super::place::{Place, Placed, determinant, place, squared_distance};
 use super::search::Search;
 use crate::certificate::cover::{Left, Mark};
@@ -35,26 +37,13 @@ pub enum Why {
     Vanishing,
 }
 
-/// A part that stays undecided.
-#[derive(Debug, Clone, Serialize, Deserialize)]
-pub struct Undecided {
-    /// Why.
-    pub why: Why,
-    /// Its share of the search space.
-    pub share: f64,
-}
-
 /// What visits find.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub struct Found {
     /// Figures proved, maybe several times.
     pub figures: Vec<Figure>,
-    /// Parts undecided. Of more than a few thousand, several that have the same reason are one here, with the share of all.
-    pub undecided: Vec<Undecided>,
-    /// How many they are.
-    pub undecided_count: u64,
-    /// How many of them the search did not come to.
-    pub unfinished: u64,
+    /// Parts undecided, by reasons.
+    pub undecided: Vec<Part>,
     /// Parts looked at.
     pub boxes: u64,
     /// Parts given up as a sign is wrong all over them.
@@ -63,8 +52,6 @@ pub struct Found {
     pub marks: Marks,
 }
 
-/// Most undecided parts that are kept one by one.
-const KEPT: usize = 4096;
 /// Coordinates must be known to this much of the unit of length before figures are looked for.
 const NEAR: f64 = 3e-3;
 /// A point whose remainder exceeds this is not known well enough to go on from it.
@@ -84,22 +71,17 @@ impl Found {
         found
     }
 
+    /// Nothing was looked at, of such a share.
+    pub fn missing(cover: bool, share: f64) -> Self {
+        let mut found = Found::begun(cover);
+        found.leave(share, Why::Unfinished);
+        found
+    }
+
     /// Notes a part that stays undecided.
     pub fn leave(&mut self, share: f64, why: Why) {
         self.marks.put(Mark::Undecided, 0);
-        self.undecided_count += 1;
-        self.unfinished += u64::from(why == Why::Unfinished);
-        self.keep(Undecided { why, share });
-    }
-
-    /// Keeps a part that stays undecided: no share is lost, and no reason.
-    fn keep(&mut self, part: Undecided) {
-        let full = self.undecided.len() >= KEPT;
-        let alike = |kept: &&mut Undecided| full && kept.why == part.why;
-        match self.undecided.iter_mut().find(alike) {
-            Some(kept) => kept.share += part.share,
-            None => self.undecided.push(part),
-        }
+        leave(&mut self.undecided, why, 1, share);
     }
 
     /// What was found in parts, one after the other.
@@ -113,11 +95,7 @@ impl Found {
     /// Adds what was found in parts that come after.
     pub fn append(&mut self, mut other: Found) {
         self.figures.append(&mut other.figures);
-        for part in other.undecided {
-            self.keep(part);
-        }
-        self.undecided_count += other.undecided_count;
-        self.unfinished += other.unfinished;
+        leave_all(&mut self.undecided, &other.undecided, 1.0);
         self.boxes += other.boxes;
         self.cut += other.cut;
         self.marks.append(other.marks);
@@ -423,8 +401,7 @@ impl<'a, const D: usize, const S: usize, const M: usize> Visit<'a, D, S, M> {
                     return;
                 }
                 None if self.node.depth.is_multiple_of(4) && search.flexes(&guess) => {
-                    let share = self.node.share;
-                    return self.found.leave(share, Why::Flexible);
+                    return self.found.leave(self.node.share, Why::Flexible);
                 }
                 _ => {}
             }
@@ -460,8 +437,7 @@ impl<'a, const D: usize, const S: usize, const M: usize> Visit<'a, D, S, M> {
             }
         }
         let Some((symbol, _)) = best else {
-            let share = self.node.share;
-            return self.found.leave(share, Why::Small);
+            return self.found.leave(self.node.share, Why::Small);
         };
         self.found.marks.put(Mark::Halves(step, with, symbol), S);
         self.children.extend(self.node.parted(symbol));
@@ -498,12 +474,12 @@ mod tests {
         };
         for order in [[true, false], [false, true]] {
             let found = Found::together(order.map(part).into());
-            assert_eq!(
-                (found.undecided_count, found.unfinished, found.boxes),
-                (1, 1, 7)
-            );
-            let share = found.undecided[0].share;
-            assert_eq!((found.undecided.len(), share), (1, 0.5));
+            let undecided = Part {
+                why: Why::Unfinished,
+                count: 1,
+                share: 0.5,
+            };
+            assert_eq!((found.undecided, found.boxes), (vec![undecided], 7));
             assert_eq!(found.marks.bytes(), Some(2));
         }
     }
@@ -511,20 +487,20 @@ mod tests {
     /// What a search that is ended leaves comes after thousands of small parts, and is nearly all of the space.
     #[test]
     fn no_share_and_no_reason_is_lost_among_thousands_of_parts() {
+        const MANY: u64 = 12_288;
         let mut found = Found::default();
-        for _ in 0..3 * KEPT {
+        for _ in 0..MANY {
             found.leave(1e-9, Why::Small);
         }
         found.leave(0.5, Why::Unfinished);
         let mut more = Found::default();
         more.leave(0.25, Why::Unfinished);
         found.append(more);
-        let share = |why: Why| -> f64 {
-            let alike = found.undecided.iter().filter(|part| part.why == why);
-            alike.map(|part| part.share).sum()
+        let [small, unfinished] = &found.undecided[..] else {
+            panic!("{found:?}")
         };
-        assert_eq!(share(Why::Unfinished), 0.75);
-        assert!((share(Why::Small) - 3e-9 * KEPT as f64).abs() < 1e-12);
-        assert_eq!(found.undecided_count, 3 * KEPT as u64 + 2);
+        assert_eq!((unfinished.count, unfinished.share), (2, 0.75));
+        assert!((small.share - 1e-9 * MANY as f64).abs() < 1e-12);
+        assert_eq!(small.count, MANY);
     }
 }

@@ -150,6 +150,15 @@ impl SolutionSet {
         found
     }
 
+    /// The index of the solution that a box holds, up to a group: it is added if it is new.
+    pub fn enter(&mut self, one: SolutionBox, group: &[Signs]) -> Result<usize, String> {
+        match self.find(&one, group, false) {
+            Found::Old(index) => Ok(index),
+            Found::New => Ok(self.push(one)),
+            Found::Unknown => Err("two solutions could not be told apart".to_owned()),
+        }
+    }
+
     /// Adds a box that was found to be new, and returns its index.
     pub fn push(&mut self, one: SolutionBox) -> usize {
         let (key, index) = (one.key(), self.boxes.len());

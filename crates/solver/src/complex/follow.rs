@@ -86,12 +86,6 @@ impl Default for Ways<'_> {
     }
 }
 
-impl std::fmt::Debug for Ways<'_> {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "Ways {{ radius: {:?} }}", self.radius)
-    }
-}
-
 impl Ways<'_> {
     /// Whether the time is over, or somebody asked to stop.
     pub fn is_over(&self) -> bool {

@@ -354,8 +354,6 @@ pub fn lower(problem: &Problem, frame: Frame) -> Option<System> {
             .map(|p| [0, 1, 2].each(|axis| Some(coordinate(p, axis))))
             .collect(),
         unit,
-        group: Vec::new(),
-        group_of_instance: Vec::new(),
         start: if are_orthogonal {
             Start::Any
         } else {
@@ -367,8 +365,7 @@ pub fn lower(problem: &Problem, frame: Frame) -> Option<System> {
             name(0),
             name(1)
         ),
-        is_absolute: false,
-        nonzero: Vec::new(),
+        ..System::default()
     };
     // Those that the equations of the instance do not allow are left out.
     let turn = |reversed: [bool; 2]| {

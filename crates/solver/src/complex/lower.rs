@@ -28,7 +28,7 @@ crate::debug_in_words!(Unserved);
 
 /// A problem's complex system, and a bound on the number of its solutions up to rotation where one is known. (In a frame of
 /// the problem's own no two solutions are the same up to rotation, and the bound is on their number.)
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct Lowered {
     /// The system.
     pub system: System,
@@ -111,9 +111,7 @@ fn in_a_frame(problem: &Problem) -> Option<Result<Lowered, Unserved>> {
 fn without_bound(system: System) -> Lowered {
     Lowered {
         system,
-        bound: None,
-        placed: None,
-        graph: None,
+        ..Lowered::default()
     }
 }
 
@@ -237,8 +235,6 @@ fn general(problem: &Problem, placed: bool) -> Result<Lowered, Unserved> {
         equations,
         points,
         unit: homotopy.unit,
-        group: Vec::new(),
-        group_of_instance: Vec::new(),
         start,
         positions,
         is_absolute,
@@ -251,6 +247,7 @@ fn general(problem: &Problem, placed: bool) -> Result<Lowered, Unserved> {
                 names[0], names[1], names[2]
             ),
         },
+        ..System::default()
     }
     .with_groups(&turns);
     if is_absolute {

@@ -8,7 +8,7 @@
 //! A random instance may have solutions that are nearly singular, which are hard to come to and hard to prove. So after
 //! the ways to B, B is the instance that is filled if more is known of it.
 
-use super::boxes::{Found, SolutionBox, SolutionSet};
+use super::boxes::{SolutionBox, SolutionSet};
 use super::exact::{Exact, Parameter, Random, zero};
 use super::follow::{Effort, Follower, PathEnd, Ways, follow_all};
 use super::start;
@@ -224,11 +224,7 @@ fn exhaust(
     fibre.effort.add(took);
     for (k, path) in open.into_iter().zip(ends) {
         let arrived = match path {
-            PathEnd::Reached(found) => match to.find(&found, &system.group, false) {
-                Found::Old(index) => Ok(index),
-                Found::New => Ok(to.push(found)),
-                Found::Unknown => Err("two solutions could not be told apart".to_owned()),
-            },
+            PathEnd::Reached(found) => to.enter(found, &system.group),
             PathEnd::Beyond(t, _) => {
                 Err(format!("it went beyond the radius allowed at t = {t:.6}"))
             }

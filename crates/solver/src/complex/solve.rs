@@ -158,9 +158,8 @@ fn add_conjugates(system: &System, set: &mut SolutionSet) -> usize {
     let proved = prove_all(system, &rights, &alone, &Ways::default());
     let before = set.len();
     for one in proved.into_iter().flatten() {
-        if set.find(&one, group, false) == Found::New {
-            set.push(one);
-        }
+        // What cannot be told from another one is none that is known.
+        let _ = set.enter(one, group);
     }
     set.len() - before
 }

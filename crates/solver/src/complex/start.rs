@@ -46,7 +46,7 @@ pub fn draw(system: &System, random: &mut Random) -> Option<StartFigure> {
         if let Kind::Fixed(_) = equation.right {
             let is_open = |&u: &usize| defined[u].is_none() && values[u].is_none();
             let open = || (0..n).rev().filter(is_open);
-            let alone = open().find(|&u| is_linear(system, e, u));
+            let alone = open().find(|&u| system.stands_alone(e, u));
             let multiplied = || {
                 let mut affine = open().filter(|&u| system.is_absolute && is_affine(system, e, u));
                 let last = affine.clone().next();
@@ -110,22 +110,6 @@ pub fn draw(system: &System, random: &mut Random) -> Option<StartFigure> {
 pub(super) fn unknowns_of(system: &System, equation: usize) -> impl Iterator<Item = usize> + '_ {
     let terms = system.equations[equation].terms.iter();
     terms.flat_map(|term| term.entries()).flatten()
-}
-
-/// Whether an unknown stands in an equation, times the number 1 only.
-fn is_linear(system: &System, equation: usize, unknown: usize) -> bool {
-    let stands = |form: Form<Option<usize>>| form.entries().any(|e| e.0 == Some(unknown));
-    let mut found = false;
-    for term in &system.equations[equation].terms {
-        match (stands(term.left), stands(term.right)) {
-            (true, true) => return false,
-            (true, false) if term.right == Form::One => found = true,
-            (false, true) if term.left == Form::One => found = true,
-            (false, false) => {}
-            _ => return false,
-        }
-    }
-    found
 }
 
 /// Whether an unknown stands in an equation, and never times itself.

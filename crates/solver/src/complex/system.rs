@@ -53,9 +53,10 @@ pub struct Signs {
 }
 
 /// Where the unknowns of a start figure are drawn from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Start {
     /// Any figure: unknowns that a fixed equation defines are computed from the others.
+    #[default]
     Any,
     /// Any figure whose reference stands on real places: as many of these unknowns, from the first on, as the
     /// number says are its coordinates that are not zero. Unknowns that a fixed equation defines are computed from
@@ -66,7 +67,7 @@ pub enum Start {
 }
 
 /// n complex quadratic equations in n complex unknowns, with the parameters of one instance.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct System {
     /// 2 or 3.
     pub dimension: usize,

@@ -17,7 +17,7 @@
 //! Equations that define an unknown, those of products and of coefficients, are kept as they are: the degrees are those in the
 //! other unknowns.
 
-use super::boxes::{Found, SolutionBox};
+use super::boxes::SolutionBox;
 use super::exact::{Exact, Parameter, Random, zero};
 use super::follow::{PathEnd, Ways, follow_all, prove_all};
 use super::monodromy::Fibre;
@@ -27,6 +27,7 @@ use super::vector::Z;
 use crate::equations::Form;
 use crate::interval::DoubleDouble;
 use crate::system::Term;
+use std::collections::HashSet;
 use std::f64::consts::TAU;
 
 /// More paths are not followed: loops of parameters then find the solutions one by one.
@@ -328,20 +329,12 @@ fn enter(system: &System, fibre: &mut Fibre, ends: Vec<PathEnd>, ways: &Ways) ->
         }
     }
     let rights = segment(&fibre.parameters, &fibre.parameters, None);
-    let mut came = vec![false; fibre.solutions.len()];
+    let mut came = HashSet::new();
     for found in prove_all(system, &rights, &near, ways) {
-        let place = found.map(|found| (fibre.solutions.find(&found, &system.group, false), found));
-        match place {
-            Ok((Found::New, found)) => {
-                fibre.solutions.push(found);
-                came.push(true);
-            }
-            Ok((Found::Old(index), _)) => came[index] = true,
-            Ok((Found::Unknown, _)) => {
-                *why = Some("two solutions could not be told apart".to_owned())
-            }
+        match found.and_then(|found| fibre.solutions.enter(found, &system.group)) {
+            Ok(index) => drop(came.insert(index)),
             Err(reason) => *why = Some(reason),
         }
     }
-    (infinite, came.into_iter().filter(|came| *came).count())
+    (infinite, came.len())
 }

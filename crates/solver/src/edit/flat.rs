@@ -1,9 +1,9 @@
 //! What is special about the figure at a limit: points on one line or in one plane.
 
 use super::ending::Limit;
-use crate::interval::vector::length;
+use crate::interval::vector::{cross, dot, length, minus};
 use crate::interval::{Interval, point};
-use crate::places::{Each as _, array};
+use crate::places::Each as _;
 use crate::track::arc::Orientation;
 
 /// Points are said to be on one line, or in one plane, where the sine of the angle is at most this. What is said is
@@ -47,13 +47,11 @@ fn sine(places: &[[Interval; 3]], points: &[usize]) -> f64 {
     let [first, others @ ..] = points else {
         return 1.0;
     };
-    let from_first = |p: &usize| -> [Interval; 3] { array(|k| places[*p][k] - places[*first][k]) };
-    let sides: Vec<[Interval; 3]> = others.iter().map(from_first).collect();
-    let minor =
-        |v: &[Interval; 3], w: &[Interval; 3], i: usize, j: usize| v[i] * w[j] - v[j] * w[i];
-    let determinant = match sides.as_slice() {
-        [u, v] => minor(u, v, 0, 1),
-        [u, v, w] => u[0] * minor(v, w, 1, 2) + u[1] * minor(v, w, 2, 0) + u[2] * minor(v, w, 0, 1),
+    let others = others.iter();
+    let sides: Vec<[Interval; 3]> = others.map(|&p| minus(places[p], places[*first])).collect();
+    let determinant = match *sides.as_slice() {
+        [u, v] => cross(u, v)[2],
+        [u, v, w] => dot(u, cross(v, w)),
         _ => return 1.0,
     };
     let size = |u: &[Interval; 3]| (u[0].sqr() + u[1].sqr() + u[2].sqr()).sqrt();

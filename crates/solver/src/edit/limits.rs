@@ -6,7 +6,7 @@ use super::{Session, Setting};
 use crate::blocks::Account;
 use crate::constraint::Measure;
 use crate::interval::Interval;
-use crate::problem::{Decimal, Target};
+use crate::problem::Decimal;
 use crate::remarks::detour;
 use crate::track::{Control, StopKind};
 use std::slice;
@@ -134,10 +134,7 @@ impl Session {
             let end = End::Unknown(self.length(index), reason);
             return (end, self.points(), self.account());
         };
-        let setting = Setting {
-            index,
-            target: Target::Length(goal),
-        };
+        let setting = Setting::to(index, goal);
         let Edited {
             ending,
             astray,

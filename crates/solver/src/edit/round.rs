@@ -78,7 +78,7 @@ impl Round {
         let placement = Placement::of(&drawing).map_err(StartError::from)?;
         let mut follow = |reverse: bool| -> Result<(Outcome, Trace), OpenError> {
             let options = Options {
-                tube_radius: Some(FINE * whole.unit()),
+                tube_radius: Some(FINE * whole.homotopy().unit),
                 threads: 1,
                 reverse,
                 ..options.clone()
@@ -134,7 +134,7 @@ impl Round {
     pub fn figure(&self) -> Vec<[Interval; 3]> {
         let homotopy = self.whole.homotopy();
         let unit = point(homotopy.unit);
-        let places = self.whole.first().points(homotopy);
+        let places = self.whole.figure().points(homotopy);
         let places: Vec<_> = places.iter().map(|p| p.each(|x| x * unit)).collect();
         self.in_problem(&places)
     }
@@ -183,7 +183,7 @@ impl Whole {
         let homotopy = self.homotopy_mut();
         homotopy.lead(setting.index, &from, &setting.target);
         let led = self.lead_constraints(slice::from_ref(setting));
-        let followed = led.map(|_| follow(self.homotopy(), self.first()));
+        let followed = led.map(|_| follow(self.homotopy(), self.figure()));
         self.homotopy_mut().hold(setting.index, &from);
         followed
     }

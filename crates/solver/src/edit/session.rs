@@ -113,7 +113,7 @@ impl Session {
     /// first point stays where the sketch has it, the next one that is elsewhere stays on its ray from there, and
     /// in space the next one off that line stays on its side of their plane.
     pub fn points(&self) -> Vec<[Interval; 3]> {
-        self.way.points_of(self.way.figure())
+        self.way.points()
     }
 
     /// The figure in floats, in the coordinates of the problem: the middle of each box of [`Session::points`].

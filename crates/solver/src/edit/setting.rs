@@ -125,16 +125,19 @@ impl Setting {
             Measure::Ratio if !is_positive => SettingError::NotARatio,
             Measure::Degrees if !is_positive || *number >= whole(180) => SettingError::NotAnAngle,
             Measure::Slope if !is_positive || *number > whole(90) => SettingError::NotASlope,
-            _ => {
-                let target = Target::Length(value);
-                return Ok(Setting { index, target });
-            }
+            _ => return Ok(Setting::to(index, value)),
         };
         Err(wrong(problem.dimension_name(index), value.to_string()))
     }
 
+    /// The same of any value.
+    pub(super) fn to(index: usize, value: Decimal) -> Self {
+        let target = Target::Length(value);
+        Setting { index, target }
+    }
+
     /// What a dimension of a problem is.
-    pub(super) fn now(problem: &Problem, index: usize) -> Self {
+    pub(crate) fn now(problem: &Problem, index: usize) -> Self {
         let target = match index.checked_sub(problem.distances.len()) {
             None => problem.distances[index].target.clone(),
             Some(c) => {
@@ -238,11 +241,7 @@ impl Setting {
     /// A setting to what the dimension is at t on its way there, rounded; `None`: that is no number.
     pub(super) fn before(&self, problem: &Problem, t: f64) -> Option<Self> {
         let value = self.between(problem, point(t)).mid();
-        let target = Target::Length(format!("{value:e}").parse().ok()?);
-        Some(Setting {
-            index: self.index,
-            target,
-        })
+        Some(Setting::to(self.index, format!("{value:e}").parse().ok()?))
     }
 
     /// From a text such as `a-b=5.2`: the distance between the points a and b, in either order, shall be

@@ -3,7 +3,7 @@
 use super::{Edited, Ending, Session, Setting};
 use crate::blocks::Account;
 use crate::interval::Interval;
-use crate::problem::{Decimal, Target};
+use crate::problem::Decimal;
 use crate::rational::Rational;
 use crate::system::Located;
 use crate::track::Control;
@@ -48,12 +48,7 @@ impl Session {
         control: &mut Control,
     ) -> Sweep {
         assert!(frames >= 2, "a sweep has two frames at least");
-        let set = |length: Decimal| {
-            [Setting {
-                index,
-                target: Target::Length(length),
-            }]
-        };
+        let set = |length: Decimal| [Setting::to(index, length)];
         let approach = self.lead(&set(from.clone()), control);
         let mut sweep = Sweep {
             account: approach.account.clone(),

@@ -27,6 +27,11 @@ pub(super) trait Way: std::fmt::Debug + Send {
     /// The figure as it is now.
     fn figure(&self) -> &Figure;
 
+    /// The figure as it is now, in the coordinates of the problem.
+    fn points(&self) -> Vec<[Interval; 3]> {
+        self.points_of(self.figure())
+    }
+
     /// A figure in the coordinates of the problem.
     fn points_of(&self, figure: &Figure) -> Vec<[Interval; 3]>;
 

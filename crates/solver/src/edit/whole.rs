@@ -118,28 +118,6 @@ impl Whole {
         })
     }
 
-    /// The problem with the dimensions as they are now. Its sketch is the one that was given.
-    pub fn problem(&self) -> &Problem {
-        &self.problem
-    }
-
-    /// The figure, in the coordinates of the problem: a box that holds exactly one with these dimensions. The
-    /// first point stays where the sketch has it, the next one that is elsewhere stays on its ray from there, and
-    /// in space the next one off that line stays on its side of their plane.
-    pub fn points(&self) -> Vec<[Interval; 3]> {
-        self.points_of(&self.figure)
-    }
-
-    /// What a claim is proved of: as many equations as unknowns, all of them.
-    pub fn scope(&self) -> Account {
-        Account::of(&self.problem, self.arcs.homotopy().equations)
-    }
-
-    /// What an edit would come to; the figure stays what it is.
-    pub fn probe(&mut self, settings: &[Setting], control: &mut Control) -> Edited {
-        self.edit(settings, Keep::Never, control)
-    }
-
     /// An edit, and the figure that was reached if so, with what constraints were led to. The lengths of the homotopy's
     /// distances are as before; right-hand sides of other constraints are set by every edit anew.
     fn attempt(
@@ -191,7 +169,7 @@ impl Whole {
             _ => None,
         };
         let reached = figure.and_then(|figure| Some((figure, record.ok()?)));
-        let edited = self.edited(settings, run, self.scope());
+        let edited = self.edited(settings, run, self.account());
         let seconds = clock.elapsed().as_secs_f64();
         (Edited { seconds, ..edited }, reached)
     }
@@ -247,22 +225,12 @@ impl Whole {
         self.stand.put(self.arcs.homotopy().dimension, places)
     }
 
-    /// The homotopy's unit of length.
-    pub(super) fn unit(&self) -> f64 {
-        self.arcs.homotopy().unit
-    }
-
     pub(super) fn homotopy(&self) -> &Homotopy {
         self.arcs.homotopy()
     }
 
     pub(super) fn homotopy_mut(&mut self) -> &mut Homotopy {
         self.arcs.homotopy_mut()
-    }
-
-    /// The figure as it is now.
-    pub(super) fn first(&self) -> &Figure {
-        &self.figure
     }
 }
 
@@ -320,7 +288,8 @@ impl Way for Whole {
     }
 
     fn account(&self) -> Account {
-        self.scope()
+        // As many equations as unknowns, all of them.
+        Account::of(&self.problem, self.arcs.homotopy().equations)
     }
 
     fn segments(&self) -> &[Segment] {

@@ -1,14 +1,15 @@
 //! A figure whose dimensions are known within limits: exactly one for every choice of all of them, by one test of Krawczyk.
 
-use super::ending::{Edited, Ending};
+use super::ending::{Edited, Ending, Keep};
 use super::open::OpenError;
 use super::setting::Setting;
+use super::way::Way as _;
 use super::whole::Whole;
 use crate::blocks::Account;
 use crate::constraint::try_lower_apart;
 use crate::elimination::invert;
 use crate::interval::{Interval, hull, point};
-use crate::problem::{Decimal, Problem, Target};
+use crate::problem::{Decimal, Problem};
 use crate::system::{Homotopy, Right};
 use crate::track::{Control, Options, StartError};
 use std::slice;
@@ -68,11 +69,7 @@ impl Limited {
         for one in limits {
             let mut ends = Vec::new();
             for value in &one.values {
-                let target = Target::Length(value.clone());
-                ends.push(whole.rights_with(&Setting {
-                    index: one.index,
-                    target,
-                })?);
+                ends.push(whole.rights_with(&Setting::to(one.index, value.clone()))?);
             }
             let now = whole.rights_now();
             let [low, high] = [&ends[0], &ends[1]];
@@ -119,12 +116,12 @@ impl Limited {
 
     /// What is proved of its figures.
     pub fn account(&self) -> Account {
-        self.whole.scope()
+        self.whole.account()
     }
 
     /// Where an unknown is in the figure with the dimensions as they are given, in the homotopy's unit.
     pub fn nominal(&self, i: usize) -> Interval {
-        self.whole.first().enclosure(i)
+        self.whole.figure().enclosure(i)
     }
 
     /// A figure in the gauge, in lengths of the problem, in the coordinates of the problem.
@@ -139,7 +136,7 @@ impl Limited {
     /// inside needs J between x and X alone. Of two zeros in X, F(ξ) − F(η) = J((ξ + η)/2) (ξ − η): with Y J regular all over X there is one.
     pub fn prove(self) -> Option<Within> {
         let (homotopy, rights) = (self.whole.homotopy(), &self.rights);
-        let centre = self.whole.first().centre.clone();
+        let centre = self.whole.figure().centre.clone();
         let at = |i: usize| point(centre[i]);
         let missed: Vec<Interval> = (0..rights.len())
             .map(|e| homotopy.left_side(e, at) - rights[e])
@@ -283,12 +280,9 @@ impl Within {
     ) -> Option<Vec<[Interval; 3]>> {
         let limits = self.limited.limits.iter().enumerate();
         let settings: Vec<Setting> = limits
-            .map(|(k, one)| Setting {
-                index: one.index,
-                target: Target::Length(one.values[usize::from(greatest(k))].clone()),
-            })
+            .map(|(k, one)| Setting::to(one.index, one.values[usize::from(greatest(k))].clone()))
             .collect();
-        let edited = self.limited.whole.probe(&settings, control);
+        let edited = self.limited.whole.edit(&settings, Keep::Never, control);
         match edited {
             Edited {
                 ending: Ending::Reached,

@@ -318,7 +318,7 @@ fn follow(
     options: &Options,
     control: &mut Control,
 ) -> Result<Followed, String> {
-    let is_of_distances = surplus::is_of_distances(problem);
+    let is_of_distances = problem.is_distances_only();
     if is_of_distances {
         match surplus::freedom(problem) {
             0 => return Err(RIGID.to_owned()),
@@ -409,7 +409,7 @@ fn driven(problem: &Problem, ends: [usize; 2]) -> (Problem, Setting) {
         target: Target::Length(decimal(length)),
     });
     // Nothing is bent, but problems of distances name one that may be; the reference is chosen among the others.
-    out.homotopy.bend = match surplus::is_of_distances(problem) {
+    out.homotopy.bend = match problem.is_distances_only() {
         true => index,
         false => out.distances.len(),
     };

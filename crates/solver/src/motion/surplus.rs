@@ -39,15 +39,10 @@ fn taken(problem: &Problem, first: Option<[usize; 2]>, choice: usize) -> (usize,
     (span.rank(), surplus)
 }
 
-/// Whether a problem has nothing but points and distances between them.
-pub(super) fn is_of_distances(problem: &Problem) -> bool {
-    problem.constraints.is_empty() && problem.objects.is_empty()
-}
-
 /// A problem of distances alone with the figure for a sketch that is nearest to it and meets them, in floats, and how far a point was moved at
 /// most. Any other problem, and one without such a figure, as it is.
 pub(super) fn corrected(problem: &Problem) -> (Problem, f64) {
-    let found = match is_of_distances(problem) && problem.points.len() <= MOST_POINTS {
+    let found = match problem.is_distances_only() && problem.points.len() <= MOST_POINTS {
         true => met(problem),
         false => None,
     };

@@ -9,6 +9,7 @@ use super::Remark;
 use crate::blocks::Whose;
 use crate::constraint::try_lower;
 use crate::linalg::{Linear, decomposed, linearised, nearest_zero, scaled};
+use crate::order::add_new;
 use crate::problem::Problem;
 use crate::random::Random;
 use crate::system::Homotopy;
@@ -68,9 +69,7 @@ pub fn redundant(problem: &Problem) -> Vec<Remark> {
                 _ => continue,
             },
         };
-        if !names.contains(&name) {
-            names.push(name);
-        }
+        add_new(&mut names, name);
     }
     match names.is_empty() {
         true => Vec::new(),

@@ -283,12 +283,9 @@ fn check(problem: &Problem, limits: &Limits) -> Result<(), String> {
 
 /// The value of a dimension, if it is a decimal.
 pub fn given(problem: &Problem, index: usize) -> Option<Decimal> {
-    match index.checked_sub(problem.distances.len()) {
-        Some(at) => problem.constraints[at].value.clone(),
-        None => match &problem.distances[index].target {
-            Target::Length(length) => Some(length.clone()),
-            Target::SquaredLength(_) => None,
-        },
+    match Setting::now(problem, index).target {
+        Target::Length(length) => Some(length),
+        Target::SquaredLength(_) => None,
     }
 }
 

@@ -150,9 +150,10 @@ pub fn has_distances_in_sets(problem: &Problem) -> bool {
 
 /// Which other figures satisfy the constraints where one does: what *congruent* means for solutions of a
 /// problem.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Symmetry {
     /// The same figure moved or mirrored.
+    #[default]
     Isometries,
     /// The same figure moved: a constraint says which way round it is.
     Motions,

@@ -7,6 +7,7 @@ use super::senses::Comparison;
 use super::{Figures, Number};
 use crate::interval::{Interval, point};
 use crate::order::each_once;
+use crate::sets::Joined;
 
 /// Choices of figures of the parts of a group that are looked at, at most.
 const MOST: usize = 4000;
@@ -118,27 +119,19 @@ impl Figures {
             }]);
         }
         let parts_of = |unknowns: &[usize]| each_once(unknowns.iter().filter_map(|&u| part_of[u]));
-        // Which group each part is in, by the first part of it.
-        let mut group_of: Vec<usize> = (0..self.parts.len()).collect();
+        // Which group each part is in, by a part of it.
+        let mut group_of = Joined::new(self.parts.len());
         for sense in senses {
-            let parts = parts_of(&sense.unknowns);
-            let groups: Vec<usize> = parts.iter().map(|&part| group_of[part]).collect();
-            if let Some(&least) = groups.iter().min() {
-                for group in &mut group_of {
-                    if groups.contains(group) {
-                        *group = least;
-                    }
-                }
-            }
+            group_of.join_all(&parts_of(&sense.unknowns));
         }
         let group_of_sense = |unknowns: &[usize]| {
             let parts = parts_of(unknowns);
-            parts.first().map(|&part| group_of[part])
+            parts.first().map(|&part| group_of.of(part))
         };
         let fixed = (None, Vec::new());
-        let groups = (0..self.parts.len()).filter(|&k| group_of[k] == k);
+        let groups = (0..self.parts.len()).filter(|&k| group_of.of(k) == k);
         let groups = groups.map(|k| {
-            let parts = (0..self.parts.len()).filter(|&part| group_of[part] == k);
+            let parts = (0..self.parts.len()).filter(|&part| group_of.of(part) == k);
             (Some(k), parts.collect::<Vec<usize>>())
         });
         let groups = std::iter::once(fixed).chain(groups);

@@ -24,9 +24,7 @@ pub(super) fn parts_of(cut: &Cut, is_fixed: &[bool]) -> Vec<Part> {
     // One more, for what is about fixed numbers alone.
     let mut sets = Joined::new(count + 1);
     let mut join = |of: &[usize]| {
-        of.windows(2).for_each(|pair| {
-            sets.join([pair[0], pair[1]]);
-        });
+        sets.join_all(of);
         of.first().copied().unwrap_or(count)
     };
     for b in (0..count).filter(|&b| !is_fixed[b]) {

@@ -26,8 +26,8 @@ impl Piece for Found {
 /// A store in use.
 pub struct Kept<'a> {
     store: Mutex<Store<Found>>,
-    /// The k-th of n shares alone, counted from 1.
-    share: [usize; 2],
+    /// Which pieces this process works on.
+    pub keep: &'a Keep,
     stop: &'a AtomicBool,
     /// Why the store could not be written.
     failed: Mutex<Option<String>>,
@@ -37,32 +37,19 @@ impl<'a> Kept<'a> {
     /// Uses an open store, with what others have, for the search of a space. `stop` is set where the disk is full.
     pub fn new(
         mut store: Store<Found>,
-        keep: &Keep,
+        keep: &'a Keep,
         (problem, space): (&Problem, &[Interval]),
         stop: &'a AtomicBool,
     ) -> Result<Self, String> {
         // The cover is made after the search, so that the pieces are the same with and without.
-        store.begin(Head::new(problem, None, false, digest([], space, &[])))?;
-        for other in &keep.merge {
-            store.merge(other)?;
-        }
+        let head = Head::new(problem, None, false, digest([], space, &[]));
+        store.begin(head, keep)?;
         Ok(Kept {
             store: Mutex::new(store),
-            share: keep.share.unwrap_or([1, 1]),
+            keep,
             stop,
             failed: Mutex::new(None),
         })
-    }
-
-    /// Whether a piece, by number, is of the share that is worked on.
-    pub fn is_mine(&self, piece: usize) -> bool {
-        let [which, of] = self.share;
-        piece % of + 1 == which
-    }
-
-    /// Whether all pieces are of it.
-    pub fn is_all(&self) -> bool {
-        self.share == [1, 1]
     }
 
     /// What was found in a piece before.

@@ -60,8 +60,8 @@ use kept::Kept;
 use oriented::Oriented;
 use poses::Poses;
 pub use ranged::ranged;
-pub(super) use search::leave;
 use search::{Block, Found, Run, ranges};
+pub(super) use search::{leave, leave_all};
 use sides::Sides;
 use std::collections::{BTreeSet, HashMap};
 use std::rc::Rc;
@@ -437,14 +437,7 @@ impl<'a> Figures<'a> {
 
     /// Leaves open what a block's search left so, of a share of what is searched; what of the share comes to each of its zeros, in equal parts.
     fn share_out(&mut self, found: &Found, share: f64) -> f64 {
-        for part in &found.undecided {
-            leave(
-                &mut self.undecided,
-                part.why,
-                part.count,
-                share * part.share,
-            );
-        }
+        leave_all(&mut self.undecided, &found.undecided, share);
         let open: f64 = found.undecided.iter().map(|part| part.share).sum();
         share * (1.0 - open).max(0.0) / found.zeros.len().max(1) as f64
     }
@@ -551,7 +544,7 @@ impl<'a> Figures<'a> {
     /// How a block that needs these zeros is searched where others share the search: all of it, if a piece of this share had one of
     /// them; the pieces of this share, if all who share the search find them; not at all (`None`), if others do it.
     fn whose(&self, before: &[(usize, usize)]) -> Option<bool> {
-        if self.kept.is_none_or(Kept::is_all) {
+        if self.kept.is_none_or(|kept| kept.keep.is_all()) {
             return Some(false);
         }
         let mut is_whole = false;
@@ -563,7 +556,7 @@ impl<'a> Figures<'a> {
                 .collect();
             let found = self.known.get(&(c, needed))?;
             match (found.pieces[zero], self.kept) {
-                (Some(piece), Some(kept)) if kept.is_mine(piece) => is_whole = true,
+                (Some(piece), Some(kept)) if kept.keep.is_mine(piece) => is_whole = true,
                 (Some(_), Some(_)) => return None,
                 _ => {}
             }

@@ -242,10 +242,7 @@ impl Square<'_> {
 
     /// A zero that equations proved that have all their zeros in common with these, as a zero of these.
     pub fn again(&self, zero: &Zero, x: &[Interval]) -> Option<Zero> {
-        let mut x = x.to_vec();
-        for (k, &u) in self.own.iter().enumerate() {
-            x[u] = zero.range(k);
-        }
+        let x = self.with(x, |k| zero.range(k));
         self.prove(&x).filter(|again| self.is_alone(again, &x))
     }
 

@@ -88,7 +88,7 @@ impl<'s, 'a> Piece<'s, 'a> {
         let order = self.order.filter(|_| self.tally.found.boxes <= PATIENCE);
         if let Some(order) = order {
             self.construct(order, node, others);
-        } else if self.is_decided(&mut node.x) {
+        } else if self.decide(&mut node.x).is_err() {
             self.tally.done(node.share);
         } else {
             self.halve(node.x, node.share, None, others);
@@ -165,7 +165,7 @@ impl<'s, 'a> Piece<'s, 'a> {
         let share = node.share / leaves.len() as f64;
         let before = self.block.volume(&node.x);
         for mut leaf in leaves {
-            if self.is_settled(&mut leaf) {
+            if self.settle(&mut leaf).is_err() {
                 self.tally.done(share);
             } else if self.block.volume(&leaf.x) < before - WORTH {
                 others.push(Node {
@@ -204,50 +204,38 @@ impl<'s, 'a> Piece<'s, 'a> {
         Ok(false)
     }
 
-    /// Whether there are no zeros in a leaf but such as are known.
-    fn is_settled(&mut self, leaf: &mut Leaf) -> bool {
+    /// Narrows a leaf by all equations together, where it is small or is all that is left. It is empty, too, where it has no zeros but such as are known.
+    fn settle(&mut self, leaf: &mut Leaf) -> Result<(), Empty> {
         let own = self.block.square.own.iter();
         let widths = own.map(|&u| relative_width(leaf.x[u]));
         let is_near = widths.fold(0.0, f64::max) < NEAR;
         let is_all = leaf.is_whole && leaf.halve.is_none();
-        if !(is_near || is_all) {
-            return false;
-        }
         for _ in 0..ROUNDS {
-            match self.together(&mut leaf.x) {
-                Ok(true) => {}
-                Ok(false) => return false,
-                Err(Empty) => return true,
+            if !(is_near || is_all) || !self.together(&mut leaf.x)? {
+                break;
             }
         }
-        false
+        Ok(())
     }
 
-    /// Whether nothing is left of a part but zeros that are known.
-    fn is_decided(&mut self, x: &mut [Interval]) -> bool {
+    /// Narrows a part by one row after the other and by all equations together. It is empty, too, where nothing is left of it but zeros that are known.
+    fn decide(&mut self, x: &mut [Interval]) -> Result<(), Empty> {
         let block = self.block;
         let square = &block.square;
         for _ in 0..ROUNDS {
-            if contract(self.rows, &block.is_free, x) == Err(Empty) {
-                return true;
-            }
+            contract(self.rows, &block.is_free, x)?;
             if self.tally.is_known(square, x) {
-                return true;
+                return Err(Empty);
             }
-            if !square.is_bounded(x) {
-                match far(self.rows, &block.is_free, x) {
-                    Err(Empty) => return true,
-                    Ok(true) => continue,
-                    Ok(false) => return false,
-                }
-            }
-            match self.together(x) {
-                Ok(true) => {}
-                Ok(false) => return false,
-                Err(Empty) => return true,
+            let goes_on = match square.is_bounded(x) {
+                true => self.together(x)?,
+                false => far(self.rows, &block.is_free, x)?,
+            };
+            if !goes_on {
+                break;
             }
         }
-        false
+        Ok(())
     }
 
     /// Narrows a part by all equations together, and proves a zero in it, if it can: whether another round is worth it. It is empty, too, where

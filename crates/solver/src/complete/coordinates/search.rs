@@ -14,6 +14,7 @@ use super::piece::{How, Node, Piece};
 use super::sums::sums;
 use super::system::{Row, System, relative_width, volume};
 use crate::certificate::cover::coordinates::Empty;
+use crate::complete::outcome::open_share;
 use crate::complete::search::Run as Watched;
 use crate::complete::{Constructed, Part, Why};
 use crate::interval::Interval;
@@ -214,7 +215,7 @@ impl<'a> Block<'a> {
             }),
             ..Found::default()
         };
-        found.into_iter().for_each(|one| whole.append(one));
+        found.iter().for_each(|one| whole.append(one, 1.0));
         (whole.zeros, whole.pieces) = all.in_order();
         whole
     }
@@ -265,14 +266,12 @@ impl<'a> Block<'a> {
             run.watched.add_done_before(run.weight * share);
             return found;
         }
-        if !run.is_whole && !kept.is_mine(number) {
+        if !run.is_whole && !kept.keep.is_mine(number) {
             return Found::missing(share);
         }
         let found = searched(node);
         if found.is_broken_off {
-            let open = found.undecided.iter();
-            let open = open.filter(|part| part.why == Why::Unfinished);
-            let open: f64 = open.map(|part| part.share).sum();
+            let open = open_share(&found.undecided);
             run.watched.add_lost(run.weight * (share - open));
         }
         kept.put(&name, &found);
@@ -381,14 +380,13 @@ impl<'a> Block<'a> {
 }
 
 impl Found {
-    /// Adds what was looked at elsewhere, but no zeros.
-    pub fn append(&mut self, other: Found) {
-        for part in other.undecided {
-            leave(&mut self.undecided, part.why, part.count, part.share);
-        }
+    /// Adds what was looked at in a part of such a share, but no zeros.
+    pub fn append(&mut self, other: &Found, share: f64) {
+        leave_all(&mut self.undecided, &other.undecided, share);
         self.boxes += other.boxes;
         self.cut += other.cut;
         self.is_broken_off |= other.is_broken_off;
+        self.constructed = self.constructed.max(other.constructed);
     }
 
     /// Nothing was looked at.
@@ -469,6 +467,13 @@ pub fn leave(undecided: &mut Vec<Part>, why: Why, count: u64, share: f64) {
             part.share += share;
         }
         None => undecided.push(Part { why, count, share }),
+    }
+}
+
+/// Adds all that is undecided in a part of such a share.
+pub fn leave_all(undecided: &mut Vec<Part>, parts: &[Part], share: f64) {
+    for part in parts {
+        leave(undecided, part.why, part.count, share * part.share);
     }
 }
 

@@ -121,18 +121,7 @@ impl Sides<'_, '_> {
             told: told.in_numbers(),
         };
         let here = block.search_all(&about, more, x.clone(), &own);
-        found.boxes += here.boxes;
-        found.cut += here.cut;
-        found.is_broken_off |= here.is_broken_off;
-        found.constructed = found.constructed.max(here.constructed);
-        for part in here.undecided {
-            leave(
-                &mut found.undecided,
-                part.why,
-                part.count,
-                share * part.share,
-            );
-        }
+        found.append(&here, share);
         let unknowns = &self.whole.square.own;
         let values = told.values().filter(|(i, _)| unknowns.contains(i));
         let values = Arc::new(values.map(|(i, x)| (i, x.clone())).collect());
@@ -147,10 +136,7 @@ impl Sides<'_, '_> {
                 continue;
             };
             // Newton's method may have left the side for another one, where values are others.
-            let mut at = x.clone();
-            for (k, &u) in unknowns.iter().enumerate() {
-                at[u] = zero.range(k);
-            }
+            let at = self.whole.square.with(&x, |k| zero.range(k));
             let is_here = !elsewhere.iter().any(|row| row.value(&at).contains(0.0));
             let values = match is_here {
                 true => Arc::clone(&values),

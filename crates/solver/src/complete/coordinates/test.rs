@@ -3,6 +3,7 @@
 use crate::blocks::{Account, LeftOut, Ruler, Verdict, Whose};
 use crate::constraint::Spare;
 use crate::interval::{Interval, ZERO, point};
+use crate::order::add_new;
 use crate::problem::Problem;
 use crate::system::Homotopy;
 use crate::track::FigureBox;
@@ -22,10 +23,7 @@ impl Test<'_> {
     pub fn names(&self) -> Vec<String> {
         let mut names: Vec<String> = Vec::new();
         for spare in &self.homotopy.spare {
-            let name = self.name(spare);
-            if !names.contains(&name) {
-                names.push(name);
-            }
+            add_new(&mut names, self.name(spare));
         }
         names
     }

@@ -10,7 +10,7 @@ use crate::certificate::complex::infinity::{LAMBDA, NU, Part, SIGMA, rows, unkno
 use crate::complex::boxes::SolutionBox;
 use crate::complex::ends::EndProver;
 use crate::complex::exact::Exact;
-use crate::complex::system::{Equation, Kind, Start, System, Unknown, segment};
+use crate::complex::system::{Equation, Kind, System, Unknown, segment};
 use crate::complex::vector::{Z, cross, dot, minus, plus};
 use crate::interval::complex::Number;
 use crate::interval::{DoubleDouble, Interval, enclose_rational, point};
@@ -147,15 +147,9 @@ fn system(graph: &Graph, split: &Split) -> Option<System> {
         dimension: 3,
         unknowns: unknowns.collect(),
         equations: rows.into_iter().map(equation).collect(),
-        points: Vec::new(),
         unit: 1.0,
-        group: Vec::new(),
-        group_of_instance: Vec::new(),
-        start: Start::Any,
         positions: 1,
-        is_absolute: false,
-        gauge: String::new(),
-        nonzero: Vec::new(),
+        ..System::default()
     };
     (system.equations.len() == system.unknowns.len()).then_some(system)
 }

@@ -60,7 +60,7 @@
 mod chart;
 mod split;
 
-use super::boxes::{Found, SolutionSet};
+use super::boxes::SolutionSet;
 use super::system::Signs;
 use crate::interval::DoubleDouble;
 use crate::interval::complex::Complex;
@@ -137,7 +137,6 @@ pub(super) fn enter(
         changes: vec![false; 3 * graph.points],
         mirrors: false,
     };
-    if figures.find(&figure, &[nothing], false) == Found::New {
-        figures.push(figure);
-    }
+    // What cannot be told from another one is none that is known.
+    let _ = figures.enter(figure, &[nothing]);
 }

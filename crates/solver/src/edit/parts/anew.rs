@@ -85,11 +85,8 @@ impl Parts {
             last = ahead.continued(settings, Keep::Always, control);
             let reached = (done + last.t.0 * (1.0 - done)).min(1.0);
             let so_far = best.as_ref().unwrap_or(&first);
-            if let Some(leg) = legs.last_mut() {
-                leg.switched_on.push(in_words(done, moved));
-            } else {
-                last.switched_on.push(in_words(done, moved));
-            }
+            let leg = legs.last_mut().unwrap_or(&mut last);
+            leg.switched_on.push(in_words(done, moved));
             let is_reached = last.ending == Ending::Reached;
             let is_limit = |ending: &Ending| matches!(ending, Ending::Limit(_));
             let is_more = is_limit(&last.ending) && !is_limit(&so_far.ending)

@@ -6,7 +6,7 @@ use crate::equations::{Form, Ring as _};
 use crate::interval::along::{Along, Quantifiable as _};
 use crate::interval::{Interval, Real, hull, point};
 use crate::places::array;
-use crate::system::{Extent, Segment, orientation};
+use crate::system::{Segment, orientation};
 use crate::track::arc::{Figure, Kept, Off, Orientation};
 use crate::track::{Stop, StopKind};
 use std::collections::HashMap;
@@ -135,11 +135,7 @@ impl Parts {
         let mut out = Vec::new();
         let paths = self.paths(exact);
         for points in &self.followed {
-            let of: Vec<usize> = points
-                .iter()
-                .flat_map(|p| (p * d)..(p * d + d))
-                .map(|place| self.cut.system.coordinates[place])
-                .collect();
+            let of: Vec<usize> = self.places(points, 0..d).collect();
             if !self.move_exactly(&of, exact) {
                 continue;
             }
@@ -174,27 +170,18 @@ impl Parts {
         exact: &HashMap<usize, Vec<Real>>,
         upto: Interval,
     ) -> Vec<Kept> {
-        let d = self.cut.problem.dimension;
         let paths = self.paths(exact);
         let mut out = Vec::new();
         for Segment { object, extent } in &self.segments {
-            let axes = match *extent {
-                Extent::Along { axis, .. } => axis..axis + 1,
-                Extent::Sweep { .. } => 0..d,
-            };
-            let place = |p: usize, axis: usize| self.cut.coordinate(p, axis);
-            let points = extent.points();
-            let of = points
-                .iter()
-                .flat_map(|&p| axes.clone().map(move |k| (p, k)));
-            let of: Vec<usize> = of.map(|(p, axis)| place(p, axis)).collect();
+            let (axes, points) = (self.axes(extent), extent.points());
+            let of: Vec<usize> = self.places(points, axes.clone()).collect();
             if !self.move_exactly(&of, exact) {
                 continue;
             }
             let sign = |time: Interval| {
                 extent.sign(|k| {
                     array(|axis| match axes.contains(&axis) {
-                        true => self.place_at(&paths, place(points[k], axis), time),
+                        true => self.place_at(&paths, self.cut.coordinate(points[k], axis), time),
                         false => point(0.0),
                     })
                 })

@@ -4,13 +4,15 @@ use super::exact::{is_positive, value_at};
 use super::{Parts, Used, moves, put};
 use crate::constraint::{Entry, Equation, Form, Product, Role, value};
 use crate::interval::{Interval, Real, hull, point};
+use crate::order::add_new;
 use crate::sets::Joined;
-use crate::system::{Extent, Homotopy, Part, Right};
+use crate::system::{Homotopy, Part, Right};
 use crate::track::arc::{ArcEnd, ArcRun, Figure, Fold};
 use crate::track::certified::arcs;
 use crate::track::{Control, LARGEST_SQUARE, Stop, StopKind};
 use std::collections::{BTreeSet, HashMap};
 use std::iter;
+use std::ops::Range;
 
 /// What became of one part.
 struct PartRun {
@@ -119,12 +121,8 @@ impl Parts {
                 .copied()
                 .filter(|&b| !self.cut.is_exact[b])
                 .collect();
-            if let Some(&first) = of.first() {
-                for &b in &of {
-                    sets.join([b, first]);
-                }
-                taken.extend(of);
-            }
+            sets.join_all(&of);
+            taken.extend(of);
         }
         let with_needs = self.cut.blocks.with_needs(taken);
         let not_exact: Vec<usize> = with_needs
@@ -251,17 +249,15 @@ impl Parts {
         });
         let d = self.cut.problem.dimension;
         let coordinates = self.cut.system.coordinates.iter();
-        let coordinates = coordinates.map(|u| local.get(u).copied());
-        let coordinates: Vec<Option<usize>> = coordinates.collect();
-        let is_here = |points: &&Vec<usize>| {
-            let mut places = points.iter().flat_map(|p| (p * d)..(p * d + d));
-            places.all(|place| coordinates[place].is_some())
+        let is_here = |points: &[usize], axes: Range<usize>| {
+            let mut unknowns = self.places(points, axes);
+            unknowns.all(|u| local.contains_key(&u))
         };
-        let segments = self.segments.iter().filter(|segment| match segment.extent {
-            Extent::Along { ends, axis } => {
-                ends.iter().all(|p| coordinates[p * d + axis].is_some())
-            }
-            Extent::Sweep { points } => is_here(&&points.to_vec()),
+        let followed = self.followed.iter().filter(|points| is_here(points, 0..d));
+        let segments = self.segments.iter();
+        let segments = segments.filter(|segment| {
+            let extent = &segment.extent;
+            is_here(extent.points(), self.axes(extent))
         });
         let mut homotopy = Homotopy::of_part(Part {
             nonzero: self.cut.system.nonzero_in(d, &local),
@@ -272,10 +268,10 @@ impl Parts {
                 .map(|&u| self.cut.system.unknowns[u].clone())
                 .collect(),
             equations: equations.collect(),
-            followed: self.followed.iter().filter(is_here).cloned().collect(),
+            followed: followed.cloned().collect(),
             segments: segments.cloned().collect(),
             beside: beside.collect(),
-            coordinates,
+            coordinates: coordinates.map(|u| local.get(u).copied()).collect(),
         });
         let names = self.cut.problem.points.iter().map(|p| p.name.clone());
         homotopy.point_names = names.collect();
@@ -301,9 +297,7 @@ impl Parts {
         };
         for run in &runs {
             for remark in &run.run.switched_on {
-                if !out.switched_on.contains(remark) {
-                    out.switched_on.push(remark.clone());
-                }
+                add_new(&mut out.switched_on, remark.clone());
             }
             out.orientations
                 .extend(run.run.orientations.iter().cloned());

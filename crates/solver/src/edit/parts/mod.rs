@@ -36,6 +36,7 @@ use crate::track::certified::FollowArcs;
 use crate::track::{Control, Options, StartError, Stop, StopKind};
 use left_out::at_rest_all;
 use std::collections::{BTreeSet, HashMap};
+use std::ops::Range;
 use std::time::Instant;
 
 /// A part is followed over so many tubes and then given up. Edits of real sketches take a few; those that came to so
@@ -223,28 +224,36 @@ impl Parts {
         self.followed.retain(differ);
     }
 
+    /// The unknowns that are coordinates of some points along some axes, point by point.
+    fn places<'p>(
+        &'p self,
+        points: &'p [usize],
+        axes: Range<usize>,
+    ) -> impl Iterator<Item = usize> + 'p {
+        let each = points.iter();
+        let each = each.flat_map(move |&p| axes.clone().map(move |axis| (p, axis)));
+        each.map(|(p, axis)| self.cut.coordinate(p, axis))
+    }
+
+    /// The axes along which the points of a line or an arc tell whether it vanishes.
+    fn axes(&self, extent: &Extent) -> Range<usize> {
+        match *extent {
+            Extent::Along { axis, .. } => axis..axis + 1,
+            Extent::Sweep { .. } => 0..self.cut.problem.dimension,
+        }
+    }
+
     fn bound_together(&self) -> Vec<BTreeSet<usize>> {
         let d = self.cut.problem.dimension;
         let blocks = |unknowns: Vec<usize>| {
             let blocks = unknowns.into_iter().map(|u| self.cut.blocks.of_unknown[u]);
             blocks.collect()
         };
-        let senses = self.senses.iter().map(|points| {
-            let places = points.iter().flat_map(|p| (p * d)..(p * d + d));
-            places
-                .map(|place| self.cut.system.coordinates[place])
-                .collect()
-        });
+        let senses = self.senses.iter();
+        let senses = senses.map(|points| self.places(points, 0..d).collect());
         let segments = self.segments.iter().map(|segment| {
-            let axes = match segment.extent {
-                Extent::Along { axis, .. } => axis..axis + 1,
-                Extent::Sweep { .. } => 0..d,
-            };
-            let points = segment.extent.points().iter();
-            let places = points.flat_map(|p| axes.clone().map(move |axis| p * d + axis));
-            places
-                .map(|place| self.cut.system.coordinates[place])
-                .collect()
+            let extent = &segment.extent;
+            self.places(extent.points(), self.axes(extent)).collect()
         });
         let vectors = self.cut.system.nonzero.iter();
         let vectors = vectors.map(|vector| vector.unknowns(d).collect());
@@ -254,11 +263,6 @@ impl Parts {
             .map(|&k| self.unknowns_of(k).collect());
         let all = senses.chain(segments).chain(vectors).chain(rows);
         all.map(blocks).collect()
-    }
-
-    /// The figure in the coordinates of the problem.
-    pub fn points(&self) -> Vec<[Interval; 3]> {
-        self.points_of(&self.figure)
     }
 
     fn distance(&self, figure: &Figure) -> f64 {

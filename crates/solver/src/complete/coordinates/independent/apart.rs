@@ -84,7 +84,7 @@ impl Apart {
             let ways = block.equations.iter().flat_map(|&e| edges(e)).flat_map(way);
             let all = ways.chain(block.unknowns.iter().copied());
             let all: Vec<usize> = all.collect();
-            join(&mut groups, &all);
+            groups.join_all(&all);
         }
         let of_conditions = conditions.iter().map(|condition| {
             let edges = condition.iter().map(|entries| entries.each(node));
@@ -92,7 +92,7 @@ impl Apart {
         });
         let of_conditions: Vec<Vec<usize>> = of_conditions.collect();
         for all in &of_conditions {
-            join(&mut groups, all);
+            groups.join_all(all);
         }
         let mut parts: Vec<usize> = Vec::new();
         let part = blocks().map(|((block, is_base), _)| {
@@ -143,12 +143,5 @@ impl Apart {
             }
         }
         state.told.learn(values);
-    }
-}
-
-/// Makes one set of those of some elements.
-fn join(sets: &mut Joined, all: &[usize]) {
-    for pair in all.windows(2) {
-        sets.join([pair[0], pair[1]]);
     }
 }

@@ -144,7 +144,7 @@ impl Figures<'_> {
     pub(super) fn fall_apart(&mut self, x: &[Interval], pivots: &[usize]) -> Option<Parts> {
         let is_simple = self.homotopy.tail.twins.is_empty()
             && !self.homotopy.has_directions()
-            && self.kept.is_none_or(|kept| kept.is_all());
+            && self.kept.is_none_or(|kept| kept.keep.is_all());
         if !is_simple || self.blocks.len() < 2 {
             return None;
         }

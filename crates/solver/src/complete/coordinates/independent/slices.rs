@@ -1,8 +1,8 @@
 //! A figure of all parts, the reference, and the zeros of each part where the others are as in that one.
 
-use super::super::{Figures, MOST_FIGURES, State, leave};
+use super::super::{Figures, MOST_FIGURES, State, leave, leave_all};
 use super::apart::Apart;
-use crate::complete::{Part, Why};
+use crate::complete::Why;
 use std::sync::atomic::Ordering;
 
 /// A reference is looked for in so many steps at most, beside one for each block.
@@ -80,15 +80,9 @@ impl Figures<'_> {
 
     /// Leaves open what blocks of a part have left so.
     pub(super) fn leave_of(&mut self, apart: &Apart, part: usize) {
-        let known = self
-            .known
-            .iter()
-            .filter(|((b, _), _)| apart.part[*b] == Some(part));
-        let open: Vec<Part> = known
-            .flat_map(|(_, found)| found.undecided.clone())
-            .collect();
-        for part in open {
-            leave(&mut self.undecided, part.why, part.count, part.share);
+        let known = self.known.iter();
+        for (_, found) in known.filter(|((b, _), _)| apart.part[*b] == Some(part)) {
+            leave_all(&mut self.undecided, &found.undecided, 1.0);
         }
     }
 

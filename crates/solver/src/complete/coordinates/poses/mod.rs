@@ -205,7 +205,7 @@ impl Poses {
             for zero in piece.zeros.drain(..) {
                 add(&mut whole.zeros, zero);
             }
-            whole.append(piece);
+            whole.append(&piece, 1.0);
         }
         whole.zeros.order_by(Zero::order);
         whole.pieces = vec![None; whole.zeros.len()];
