@@ -7,26 +7,27 @@
 
 mod computed;
 mod elsewhere;
+mod followed;
 mod formula;
 mod quantity;
+mod rewrite;
 mod shape;
 
-use super::drawing::{Drawing, decimal};
-use super::{Figure, Followed, Follower, Imported, Listed, Places as AllPlaces, Tied};
-use crate::edit::Setting;
-use crate::order::InOrder;
+use super::drawing::Drawing;
+use super::{Imported, Listed, Places as AllPlaces};
 use crate::places::Each as _;
-use crate::problem::{Item, Point, Problem, Shape};
-use computed::{Evaluation, Numbers};
+use crate::problem::{Item, Shape};
+use computed::Numbers;
 use elsewhere::Shapes;
+pub use followed::{computed, followed};
+pub use rewrite::rewrite;
 use roxmltree::{Document, Node};
 use shape::Outline;
 use std::collections::{HashMap, HashSet};
-use std::io::{Cursor, Read, Write};
+use std::io::{Cursor, Read};
 use std::ops::Range;
 use std::str::FromStr;
-use zip::write::SimpleFileOptions;
-use zip::{CompressionMethod, ZipArchive, ZipWriter};
+use zip::ZipArchive;
 
 const DOCUMENT: &str = "Document.xml";
 /// Where the centre of a circle or arc stands.
@@ -411,10 +412,14 @@ impl Reader {
         self.drawing.if_round(object)
     }
 
-    fn ends_of(&mut self, id: i64) -> Option<[usize; 2]> {
-        match self.edge(id)? {
-            Drawn::Line { ends, .. } => Some(ends),
-            _ => None,
+    /// Two points: the ends of a line that is named alone, or what is named of two edges.
+    fn ends_of(&mut self, first: (i64, i64), second: (i64, i64)) -> Option<[usize; 2]> {
+        match (first.1, second.0) {
+            (0, NONE) => match self.edge(first.0)? {
+                Drawn::Line { ends, .. } => Some(ends),
+                _ => None,
+            },
+            _ => self.points_of([first, second]),
         }
     }
 
@@ -439,13 +444,8 @@ impl Reader {
         let (key, items) = match whole(node, "Type") {
             1 => ("coincident", points(self.points_of([first, second])?)),
             kind @ (2 | 3) => {
-                let ends = match (first.1, has_second) {
-                    (0, false) => self.ends_of(first.0)?,
-                    (_, true) => self.points_of([first, second])?,
-                    _ => return None,
-                };
                 let key = if kind == 2 { "horizontal" } else { "vertical" };
-                (key, points(ends))
+                (key, points(self.ends_of(first, second)?))
             }
             4 => {
                 let lines = [self.line_of(first.0)?, self.line_of(second.0)?];
@@ -467,11 +467,7 @@ impl Reader {
                 (key, vec![one, other])
             }
             6 => {
-                let ends = match (first.1, second) {
-                    (0, (NONE, _)) => self.ends_of(first.0)?,
-                    (1.., _) => self.points_of([first, second])?,
-                    _ => return None,
-                };
+                let ends = self.ends_of(first, second)?;
                 self.drawing.distance(index, ends, value);
                 return Some(());
             }
@@ -482,11 +478,7 @@ impl Reader {
                     let key = if is_x { "x" } else { "y" };
                     (key, vec![Item::Point(self.point_of(first)?)])
                 } else {
-                    let ends = match (first.1, has_second) {
-                        (0, false) => self.ends_of(first.0)?,
-                        (1.., true) => self.points_of([first, second])?,
-                        _ => return None,
-                    };
+                    let ends = self.ends_of(first, second)?;
                     (if is_x { "dx" } else { "dy" }, points(ends))
                 }
             }
@@ -665,131 +657,6 @@ fn constraint_name(index: usize, node: Node) -> String {
     given.map_or_else(|| format!("Constraint{}", index + 1), str::to_owned)
 }
 
-/// The first dimension that a constraint of the file is.
-fn dimension_of(imported: &Imported, source: usize) -> Option<usize> {
-    let mut all = imported.problem.dimensions();
-    all.find(|&index| imported.sources[index] == Some(source))
-}
-
-/// The dimensions that expressions of the sketch compute.
-fn tied(imported: &Imported, numbers: &Numbers) -> Vec<Tied> {
-    let of = |source| dimension_of(imported, source);
-    let tied = numbers.tied().filter_map(|(source, expression)| {
-        Some(Tied {
-            index: of(source)?,
-            expression: expression.to_owned(),
-            on: numbers
-                .named_in(expression)
-                .into_iter()
-                .filter_map(of)
-                .collect(),
-            fault: numbers.fault(source),
-        })
-    });
-    tied.collect()
-}
-
-/// The sign of a dimension's number in the file against the one in the problem, by what both were as the file was read.
-fn sign(said: f64, before: f64) -> f64 {
-    if said * before < 0.0 { -1.0 } else { 1.0 }
-}
-
-/// What follows by the file's expressions where these dimensions, and cells, are set, and all others are as in `now`.
-pub fn followed(imported: &Imported, places: &Places, now: &Problem, set: &[Setting]) -> Followed {
-    let (numbers, before) = (&places.computed, &imported.problem);
-    let is_set = |index: usize| set.iter().any(|setting| setting.index == index);
-    let is_tied = |index: usize| imported.tied.iter().any(|tied| tied.index == index);
-    let mut then = now.clone();
-    set.iter().for_each(|setting| setting.apply(&mut then));
-    let signed = |index: usize| {
-        let said = numbers.said(imported.sources[index]?)?;
-        let before = super::value(before, index);
-        Some((said, sign(said.value, before)))
-    };
-    let given = before.dimensions().filter(|&i| is_set(i) || !is_tied(i));
-    let given = given.filter_map(|index| {
-        let (said, sign) = signed(index)?;
-        let number = said.with(sign * super::value(&then, index));
-        Some((imported.sources[index]?, number, is_set(index)))
-    });
-    let mut evaluation = Evaluation::new(numbers, given);
-    let mut followed = Followed::default();
-    let is_external = |point: &Point| point.name.starts_with("external");
-    if numbers.set_cells().next().is_some() && before.points.iter().any(is_external) {
-        followed.warnings.push(
-            "geometry of other objects stays where it is here, and may follow from the cell when the file is recomputed there".to_owned(),
-        );
-    }
-    for (source, expression) in numbers.tied() {
-        let index = dimension_of(imported, source);
-        let name = match index {
-            Some(index) => before.dimension_name(index),
-            None => numbers.shown(numbers.entry(source)),
-        };
-        if index.is_some_and(is_set) {
-            followed.warnings.push(format!(
-                "{name} has the expression `{expression}` in the file, by which it is set anew when the file is recomputed there"
-            ));
-            continue;
-        }
-        let value = match numbers.fault(source) {
-            Some(why) => Some(Err(why)),
-            None => evaluation.follows(source),
-        };
-        let why = match (
-            value,
-            index.and_then(|index| Some((index, signed(index)?.1))),
-        ) {
-            (None, Some((index, sign))) => {
-                // Set by hand before, perhaps.
-                let here = super::value(now, index);
-                let by_it = evaluation.number(source);
-                let by_it = by_it.ok().and_then(|value| decimal(sign * value.value));
-                if let Some(by_it) = by_it.filter(|by_it| !computed::is_same(by_it.to_f64(), here))
-                {
-                    followed.warnings.push(format!(
-                        "{name} is {here} here, and {by_it} by its expression `{expression}`: what is computed from it takes that"
-                    ));
-                }
-                continue;
-            }
-            (None, None) => continue,
-            (Some(Ok(value)), Some((index, sign))) => {
-                if let Some(value) = decimal(sign * value.value) {
-                    let expression = expression.to_owned();
-                    followed.set.push(Follower {
-                        index,
-                        value,
-                        expression,
-                    });
-                    continue;
-                }
-                "the number is out of range".to_owned()
-            }
-            // Zero still, as a rule.
-            (Some(Ok(value)), None) if numbers.said(source) == Some(value) => continue,
-            (Some(Ok(value)), None) => {
-                format!("it would be {value}, and there is no number here that can be led there")
-            }
-            (Some(Err(why)), _) => why,
-        };
-        let stays = index.map_or(String::new(), |index| {
-            format!(" {}", super::value(now, index))
-        });
-        followed.warnings.push(format!(
-            "{name} has the expression `{expression}` in the file, which is not followed: {why}; it stays{stays} here, and is set anew when the file is recomputed there"
-        ));
-    }
-    let elsewhere = evaluation.elsewhere();
-    if !elsewhere.is_empty() {
-        followed.warnings.push(format!(
-            "{} follows too, and is not led here: it is set anew when the file is recomputed there",
-            elsewhere.join(", ")
-        ));
-    }
-    followed
-}
-
 pub fn read(bytes: &[u8], index: usize) -> Result<Imported, String> {
     let text = document(bytes)?;
     let document = parse(&text)?;
@@ -874,95 +741,7 @@ pub fn read(bytes: &[u8], index: usize) -> Result<Imported, String> {
         .drawing
         .finish(name, "a FreeCAD file", AllPlaces::FreeCad(places));
     if let AllPlaces::FreeCad(places) = &imported.places {
-        imported.tied = tied(&imported, &places.computed);
+        imported.tied = followed::tied(&imported, &places.computed);
     }
     Ok(imported)
-}
-
-pub fn rewrite(
-    imported: &Imported,
-    places: &Places,
-    bytes: &[u8],
-    problem: &Problem,
-    figure: &Figure,
-) -> Result<Vec<u8>, String> {
-    let mut text = document(bytes)?;
-    let mut changes: Vec<(Range<usize>, String)> = Vec::new();
-    for (content, range) in places.computed.set_cells() {
-        // What stands for itself in a text, and not in an attribute.
-        let content = content.replace('&', "&amp;").replace('"', "&quot;");
-        changes.push((
-            range.clone(),
-            content.replace('<', "&lt;").replace('\'', "&apos;"),
-        ));
-    }
-    for (range, number, before) in &places.numbers {
-        let now = match *number {
-            Number::Coordinate(point, axis) => figure.points[point][axis],
-            Number::Radius(object) => figure.radii[object],
-            Number::Apart(a, b) => {
-                let ([ax, ay, _], [bx, by, _]) = (figure.points[a], figure.points[b]);
-                (bx - ax).hypot(by - ay)
-            }
-            Number::Angle(center, point, turned, clockwise) => {
-                let ([ax, ay, _], [bx, by, _]) = (figure.points[center], figure.points[point]);
-                let angle = (by - ay).atan2(bx - ax);
-                let angle = if clockwise {
-                    turned - angle
-                } else {
-                    angle - turned
-                };
-                // As near as can be to what it was.
-                let turn = std::f64::consts::TAU;
-                angle + turn * ((before - angle) / turn).round()
-            }
-        };
-        // Numbers are compared as they are written.
-        if format!("{now:.16}") != format!("{before:.16}") {
-            changes.push((range.clone(), format!("{now:.16}")));
-        }
-    }
-    for changed in super::changed(imported, problem) {
-        let changed = changed?;
-        let range = places.values.get(changed.source).cloned();
-        let range = range.unwrap_or(0..0);
-        let said: f64 = text
-            .get(range.clone())
-            .and_then(|x| x.parse().ok())
-            .unwrap_or(f64::NAN);
-        let value = sign(said, changed.before) * changed.value;
-        let value = if changed.is_angle {
-            value.to_radians()
-        } else {
-            value
-        };
-        changes.push((range, format!("{value:.16}")));
-    }
-    changes.order_by_key(|change| std::cmp::Reverse(change.0.start));
-    for (range, value) in changes {
-        if text.get(range.clone()).is_none_or(str::is_empty) {
-            return Err("a number is missing: this is another file".to_owned());
-        }
-        text.replace_range(range, &value);
-    }
-    let failed = |error: zip::result::ZipError| error.to_string();
-    let mut from = archive(bytes)?;
-    let mut to = ZipWriter::new(Cursor::new(Vec::with_capacity(bytes.len())));
-    to.set_raw_comment(from.comment().to_vec().into_boxed_slice())
-        .map_err(failed)?;
-    for index in 0..from.len() {
-        let part = from.by_index_raw(index).map_err(failed)?;
-        if part.name().map_err(failed)? != DOCUMENT {
-            to.raw_copy_file(part).map_err(failed)?;
-            continue;
-        }
-        let mut options =
-            SimpleFileOptions::default().compression_method(CompressionMethod::Deflated);
-        if let Some(time) = part.last_modified() {
-            options = options.last_modified_time(time);
-        }
-        to.start_file(DOCUMENT, options).map_err(failed)?;
-        to.write_all(text.as_bytes()).map_err(|e| e.to_string())?;
-    }
-    Ok(to.finish().map_err(failed)?.into_inner())
 }
