@@ -10,7 +10,6 @@ use super::results::Results;
 use super::take::{Candidates, Take, Taken};
 use super::verify::check_cover;
 use super::{CLOSED, INCOMPLETE, NOT_PROVED, STOPPED, input, interrupt};
-use krawl::blocks::Account;
 use krawl::complete::{Complete, Keep, Options, Progress, Status, Tested, Unserved, all};
 use krawl::constraint::Symmetry;
 use krawl::problem::counted;
@@ -124,18 +123,13 @@ fn share(text: &str) -> Result<[usize; 2], String> {
 pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
     let (file, sketch) = (&arguments.file, arguments.sketch.as_deref());
     arguments.take.check(file)?;
-    let (asked, skeleton) = input::asked(
-        (file, sketch),
-        arguments.redundant_tolerance,
-        arguments.any_signs,
-    )?;
-    let (problem, made, surplus) = match asked {
-        Asked::Surplus(surplus) => (surplus.problem.clone(), Account::default(), Some(surplus)),
-        Asked::Problem(read) => {
-            let (problem, made) = *read;
-            (problem, made, None)
-        }
-    };
+    let tolerance = arguments.redundant_tolerance;
+    let Asked {
+        problem,
+        made,
+        surplus,
+        skeleton,
+    } = input::asked((file, sketch), tolerance, arguments.any_signs)?;
     let measures = arguments.measured.of(&problem)?;
     let named = [arguments.json.as_deref(), None];
     let mut results = Results::open([file], named, &arguments.pictures, arguments.quiet)?;
@@ -159,7 +153,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
         cover: cert.is_some(),
         threads: arguments.threads.unwrap_or(0).into(),
         within_digits: true,
-        redundant_tolerance: arguments.redundant_tolerance,
+        redundant_tolerance: tolerance,
         progress: Some(&tell),
         store: arguments.store.as_ref().map(|folder| Keep {
             folder: folder.clone(),
