@@ -145,25 +145,15 @@ pub fn list(bytes: &[u8]) -> Result<Vec<Listed>, String> {
     Ok(listed.collect())
 }
 
-/// An edge, or what else is drawn.
-#[derive(Debug, Clone)]
-enum Drawn {
-    Line {
-        ends: [usize; 2],
-        object: Option<usize>,
-    },
-    Point(usize),
-    Circle {
-        center: usize,
-        object: Option<usize>,
-    },
-    Arc {
-        center: usize,
-        ends: [usize; 2],
-        object: Option<usize>,
-    },
-    /// Of a kind that krawl does not have.
-    Other,
+/// An edge, or what else is drawn; nothing of all this where it is of a kind that krawl does not have.
+#[derive(Debug, Clone, Copy, Default)]
+struct Drawn {
+    /// Of a line or an arc.
+    ends: Option<[usize; 2]>,
+    /// Of a circle or an arc; of a point that is drawn alone, the point.
+    center: Option<usize>,
+    /// The line, circle or arc, unless it is too small to be one.
+    object: Option<usize>,
 }
 
 /// Which number of an edge stands in an attribute.
@@ -271,7 +261,7 @@ impl Reader {
         match read {
             Some((node, outline)) => self.draw(id, outline, is_own.then_some(node)),
             None => {
-                self.edges.insert(id, Drawn::Other);
+                self.edges.insert(id, Drawn::default());
                 if is_own {
                     let kind = kind.trim_start_matches("Part::Geom");
                     self.drawing.keep_outline(kind, format!("e{}", id + 1));
@@ -286,20 +276,17 @@ impl Reader {
             None => format!("external{}", -2 - id),
             Some(_) => format!("e{}", id + 1),
         };
-        let drawn = match outline {
+        let (ends, center, object) = match outline {
             Outline::Line([a, b]) => {
                 let start = own.map(|node| (node, ["StartX", "StartY"]));
                 let end = own.map(|node| (node, ["EndX", "EndY"]));
                 let a = self.point(format!("{name}.start"), a, start);
                 let b = self.point(format!("{name}.end"), b, end);
-                let object = self.drawing.line(name, [a, b]);
-                Drawn::Line {
-                    ends: [a, b],
-                    object,
-                }
+                (Some([a, b]), None, self.drawing.line(name, [a, b]))
             }
             Outline::Point(at) => {
-                Drawn::Point(self.point(name, at, own.map(|node| (node, ["X", "Y"]))))
+                let own = own.map(|node| (node, ["X", "Y"]));
+                (None, Some(self.point(name, at, own)), None)
             }
             Outline::Circle { center, radius } => {
                 let own_center = own.map(|node| (node, CENTER));
@@ -308,7 +295,7 @@ impl Reader {
                 if let (Some(object), Some(node)) = (object, own) {
                     self.place(node, "Radius", Number::Radius(object));
                 }
-                Drawn::Circle { center, object }
+                (None, Some(center), object)
             }
             Outline::Arc { center, ends } => {
                 let own_center = own.map(|node| (node, CENTER));
@@ -325,12 +312,13 @@ impl Reader {
                     self.place(node, "EndAngle", angle(last));
                 }
                 let object = self.drawing.arc(name, [center, a, b]);
-                Drawn::Arc {
-                    center,
-                    ends: [a, b],
-                    object,
-                }
+                (Some([a, b]), Some(center), object)
             }
+        };
+        let drawn = Drawn {
+            ends,
+            center,
+            object,
         };
         self.edges.insert(id, drawn);
         if own.is_none() {
@@ -342,9 +330,10 @@ impl Reader {
     /// The axes, when they are first asked for.
     fn edge(&mut self, id: i64) -> Option<Drawn> {
         if !self.edges.contains_key(&id) && matches!(id, -1 | -2) {
-            let origin = match self.edges.get(&(-3 - id)) {
-                Some(Drawn::Line { ends, .. }) => ends[0],
-                _ => self.drawing.fixed_point("origin".to_owned(), [0.0, 0.0]),
+            let other = self.edges.get(&(-3 - id));
+            let origin = match other.and_then(|axis| axis.ends) {
+                Some(ends) => ends[0],
+                None => self.drawing.fixed_point("origin".to_owned(), [0.0, 0.0]),
             };
             let (name, at) = match id {
                 -1 => ("x", [self.size, 0.0]),
@@ -352,54 +341,45 @@ impl Reader {
             };
             let unit = self.drawing.fixed_point(format!("{name}-unit"), at);
             let object = self.drawing.line(format!("{name}-line"), [origin, unit]);
-            let ends = [origin, unit];
-            self.edges.insert(id, Drawn::Line { ends, object });
+            let axis = Drawn {
+                ends: Some([origin, unit]),
+                center: None,
+                object,
+            };
+            self.edges.insert(id, axis);
         }
-        self.edges.get(&id).cloned()
+        self.edges.get(&id).copied()
     }
 
     fn point_of(&mut self, (id, position): (i64, i64)) -> Option<usize> {
-        match (self.edge(id)?, position) {
-            (Drawn::Line { ends, .. } | Drawn::Arc { ends, .. }, 1) => Some(ends[0]),
-            (Drawn::Line { ends, .. } | Drawn::Arc { ends, .. }, 2) if id != -1 && id != -2 => {
-                Some(ends[1])
-            }
-            (Drawn::Point(p), 1..=3) => Some(p),
-            (Drawn::Circle { center, .. } | Drawn::Arc { center, .. }, 3) => Some(center),
+        let drawn = self.edge(id)?;
+        match (position, drawn.ends) {
+            (1, Some(ends)) => Some(ends[0]),
+            (2, Some(ends)) if id != -1 && id != -2 => Some(ends[1]),
+            (1 | 2, None) if drawn.object.is_none() => drawn.center,
+            (3, _) => drawn.center,
             _ => None,
         }
     }
 
     fn object_of(&mut self, id: i64) -> Option<usize> {
-        match self.edge(id)? {
-            Drawn::Line { object, .. }
-            | Drawn::Circle { object, .. }
-            | Drawn::Arc { object, .. } => object,
-            _ => None,
-        }
+        self.edge(id)?.object
     }
 
     /// What a constraint names of what is drawn: a point of an edge, or all of it.
     fn items(&self, (id, position): (i64, i64)) -> Vec<Item> {
-        let point = |p: usize| vec![Item::Point(p)];
-        let (ends, center, object) = match self.edges.get(&id) {
-            None | Some(Drawn::Other) => return Vec::new(),
-            Some(Drawn::Point(p)) => return point(*p),
-            Some(&Drawn::Line { ends, object }) => (ends.to_vec(), None, object),
-            Some(&Drawn::Circle { center, object }) => (Vec::new(), Some(center), object),
-            Some(&Drawn::Arc {
-                center,
-                ends,
-                object,
-            }) => (ends.to_vec(), Some(center), object),
+        let drawn = self.edges.get(&id).copied().unwrap_or_default();
+        let points = match (position, drawn.ends, drawn.center, drawn.object) {
+            (1 | 2, Some(ends), ..) => vec![ends[position as usize - 1]],
+            (3, _, Some(center), _) => vec![center],
+            (.., Some(object)) => return vec![Item::Object(object)],
+            // A point, or too small to be an object.
+            (_, ends, center, None) => {
+                let ends = ends.into_iter().flatten();
+                center.into_iter().chain(ends).collect()
+            }
         };
-        match (position, object) {
-            (1 | 2, _) if !ends.is_empty() => point(ends[position as usize - 1]),
-            (3, _) if center.is_some() => center.into_iter().map(Item::Point).collect(),
-            (_, Some(object)) => vec![Item::Object(object)],
-            // Too small to be an object.
-            (_, None) => center.into_iter().chain(ends).map(Item::Point).collect(),
-        }
+        points.into_iter().map(Item::Point).collect()
     }
 
     fn line_of(&mut self, id: i64) -> Option<usize> {
@@ -415,20 +395,16 @@ impl Reader {
     /// Two points: the ends of a line that is named alone, or what is named of two edges.
     fn ends_of(&mut self, first: (i64, i64), second: (i64, i64)) -> Option<[usize; 2]> {
         match (first.1, second.0) {
-            (0, NONE) => match self.edge(first.0)? {
-                Drawn::Line { ends, .. } => Some(ends),
-                _ => None,
-            },
+            (0, NONE) => {
+                let drawn = self.edge(first.0)?;
+                drawn.ends.filter(|_| drawn.center.is_none())
+            }
             _ => self.points_of([first, second]),
         }
     }
 
     fn points_of(&mut self, both: [(i64, i64); 2]) -> Option<[usize; 2]> {
         Some([self.point_of(both[0])?, self.point_of(both[1])?])
-    }
-
-    fn are_lines(&self, edges: [usize; 2]) -> [bool; 2] {
-        edges.each(|edge| matches!(self.drawing.shape(edge), Shape::Line(_)))
     }
 
     /// Puts a constraint down; `None` where there is no kind for it.
@@ -489,8 +465,8 @@ impl Reader {
                 let is_between = degrees > 0.0 && degrees < 180.0;
                 let key = if is_between { "angles" } else { "turns" };
                 // How far an arc goes round, counter-clockwise.
-                if let (Drawn::Arc { center, ends, .. }, false) = (self.edge(first.0)?, has_second)
-                {
+                let drawn = self.edge(first.0)?;
+                if let (Some(ends), Some(center), false) = (drawn.ends, drawn.center, has_second) {
                     (key, [ends[0], center, ends[1]].each(Item::Point).to_vec())
                 } else {
                     let one = self.line_of(first.0)?;
@@ -515,7 +491,8 @@ impl Reader {
             }
             12 => {
                 let edges = [self.object_of(first.0)?, self.object_of(second.0)?];
-                let [one, other] = self.are_lines(edges);
+                let is_line = |edge| matches!(self.drawing.shape(edge), Shape::Line(_));
+                let [one, other] = edges.each(is_line);
                 if one != other {
                     return None;
                 }
@@ -536,10 +513,11 @@ impl Reader {
                 ("symmetric", vec![Item::Point(a), Item::Point(b), mirror])
             }
             17 => {
-                let points = match self.edge(first.0)? {
-                    Drawn::Line { ends, .. } => ends.to_vec(),
-                    Drawn::Point(p) => vec![p],
-                    Drawn::Circle { .. } | Drawn::Arc { .. } | Drawn::Other => return None,
+                let drawn = self.edge(first.0)?;
+                let points = match (drawn.ends, drawn.center, drawn.object) {
+                    (Some(ends), None, _) => ends.to_vec(),
+                    (None, Some(point), None) => vec![point],
+                    _ => return None,
                 };
                 for p in points {
                     self.drawing
@@ -595,7 +573,7 @@ impl Reader {
             // A line at a right angle to a circle goes through its centre.
             let other = [first.0, second.0].map(|id| self.edge(id));
             for edge in other.into_iter().flatten() {
-                if let Drawn::Circle { center, .. } | Drawn::Arc { center, .. } = edge {
+                if let (Some(center), Some(_)) = (edge.center, edge.object) {
                     let items = vec![Item::Point(center), Item::Object(line)];
                     self.drawing.constrain(source, "on", items, None);
                     return Some(());
