@@ -2,7 +2,6 @@
 
 use super::digits::ManyDigits;
 use super::edit::say_if_it_moves;
-use super::input::Asked;
 use super::measured::{Measured, placed};
 use super::output::{self, Beside, Refusal, number};
 use super::pictures::Pictures;
@@ -124,12 +123,8 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
     let (file, sketch) = (&arguments.file, arguments.sketch.as_deref());
     arguments.take.check(file)?;
     let tolerance = arguments.redundant_tolerance;
-    let Asked {
-        problem,
-        made,
-        surplus,
-        skeleton,
-    } = input::asked((file, sketch), tolerance, arguments.any_signs)?;
+    let asked = input::asked((file, sketch), tolerance, arguments.any_signs)?;
+    let problem = asked.problem;
     let measures = arguments.measured.of(&problem)?;
     let named = [arguments.json.as_deref(), None];
     let mut results = Results::open([file], named, &arguments.pictures, arguments.quiet)?;
@@ -165,7 +160,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
     if results.is_told() {
         say_if_it_moves(&problem);
     }
-    let result = match &surplus {
+    let result = match &asked.surplus {
         Some(surplus) => surplus.search(&options),
         None => all(&problem, &options),
     };
@@ -200,13 +195,16 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
     }
     let figures = || result.solutions.iter().map(placed);
     let either = result.symmetry == Symmetry::Isometries;
-    let conformers = skeleton.filter(|_| results.are_read()).map(|skeleton| {
-        let solutions = result.solutions.iter();
-        let middles = solutions.map(|s| s.points.iter().map(|p| p.map(|x| x.mid())).collect());
-        let middles: Vec<Vec<[f64; 3]>> = middles.collect();
-        let conformers = skeleton.conformers(&middles, either);
-        (skeleton, conformers)
-    });
+    let conformers = asked
+        .skeleton
+        .filter(|_| results.are_read())
+        .map(|skeleton| {
+            let solutions = result.solutions.iter();
+            let middles = solutions.map(|s| s.points.iter().map(|p| p.map(|x| x.mid())).collect());
+            let middles: Vec<Vec<[f64; 3]>> = middles.collect();
+            let conformers = skeleton.conformers(&middles, either);
+            (skeleton, conformers)
+        });
     let many = arguments
         .many
         .of(&problem, &result.reference, &result.solutions);
@@ -225,7 +223,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
             text += &conformers_to_table(&problem, skeleton, conformers);
         }
         text += &digits_to_table(&problem, 1, &many);
-        let made = made.clause();
+        let made = asked.made.clause();
         if !made.is_empty() {
             text +=
                 &format!("\nThe sketch was searched with as many equations as unknowns, {made}.\n");

@@ -186,12 +186,8 @@ impl Take {
         figure: &impl Fn(u64) -> Result<Taken, String>,
     ) -> Result<u64, String> {
         const MOST: u64 = 100_000;
-        let Candidates {
-            count,
-            first,
-            is_all,
-        } = listed;
-        match (self.pick, first, count) {
+        let (count, is_all) = (listed.count, listed.is_all);
+        match (self.pick, listed.first, count) {
             (_, _, 0) => Err("there is no figure to take".to_owned()),
             (Some(k), _, _) if k <= count => Ok(k - 1),
             (Some(k), _, _) if is_all => {

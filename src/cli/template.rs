@@ -213,20 +213,19 @@ fn summary(problem: &Problem, lowered: &Lowered, fibre: &Fibre, seconds: f64) ->
             led.infinite
         );
     }
-    let Effort {
-        paths,
-        tubes,
-        steps,
-        ..
-    } = fibre.effort;
-    let took = [(tubes, "tube", ""), (steps, "step", " in floats")];
+    let effort = &fibre.effort;
+    let took = [
+        (effort.tubes, "tube", ""),
+        (effort.steps, "step", " in floats"),
+    ];
     let took = took.into_iter().filter(|(count, ..)| *count > 0);
     let took: String = took
         .map(|(count, what, how)| format!("{}{how}, ", counted(count, what)))
         .collect();
     text += &format!(
-        "{} between random instances, {paths} paths, {took}{seconds:.2} s\n",
-        counted(fibre.ways, "way")
+        "{} between random instances, {} paths, {took}{seconds:.2} s\n",
+        counted(fibre.ways, "way"),
+        effort.paths
     );
     if let (failed, Some(reason)) = &fibre.failed {
         text += &format!("{failed} paths were given up, the last because {reason}\n");

@@ -170,16 +170,14 @@ impl Numbers {
             }
             all => (of, all),
         };
-        let Object {
-            is_sheet, entries, ..
-        } = &self.objects[object];
+        let own = &self.objects[object];
         let (name, rest) = match parts {
-            [Part::Name("Constraints"), name, rest @ ..] if !is_sheet => (name, rest),
-            [name, rest @ ..] if *is_sheet => (name, rest),
+            [Part::Name("Constraints"), name, rest @ ..] if !own.is_sheet => (name, rest),
+            [name, rest @ ..] if own.is_sheet => (name, rest),
             _ => return None,
         };
         let entry = match name {
-            Part::Index(index) => entries.clone().nth(*index)?,
+            Part::Index(index) => own.entries.clone().nth(*index)?,
             Part::Name(name) | Part::Label(name) => {
                 *self.named.get(&(object, name.replace('$', "")))?
             }
@@ -193,13 +191,11 @@ impl Numbers {
 
     /// What people call an entry.
     pub fn shown(&self, entry: usize) -> String {
-        let Entry {
-            object, name: own, ..
-        } = &self.entries[entry];
-        let Object { name, entries, .. } = &self.objects[*object];
-        let own = own.clone();
+        let object = self.entries[entry].object;
+        let Object { name, entries, .. } = &self.objects[object];
+        let own = self.entries[entry].name.clone();
         let own = own.unwrap_or_else(|| format!("Constraint{}", entry - entries.start + 1));
-        match *object == self.own {
+        match object == self.own {
             true => own,
             false => format!("{name}.{own}"),
         }
@@ -341,16 +337,14 @@ impl<'a> Evaluation<'a> {
     fn compute(&mut self, entry: usize, is_new: &mut bool) -> Found {
         let numbers = self.numbers;
         let shown = || numbers.shown(entry);
-        let Entry {
-            object, content, ..
-        } = &numbers.entries[entry];
-        let (text, said) = match content {
+        let of = &numbers.entries[entry];
+        let (text, said) = match &of.content {
             Content::Given(number) => return Ok(*number),
             Content::Other(what) => return Err(format!("{} {what}", shown())),
             Content::Computed(text, said) => (text, said),
         };
         let value = evaluate(text, &mut |path| {
-            let found = numbers.find(*object, path).ok_or_else(|| {
+            let found = numbers.find(of.object, path).ok_or_else(|| {
                 let name = path.text;
                 format!("`{name}` is neither a dimension of a sketch nor a cell of a spreadsheet")
             });
