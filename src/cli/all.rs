@@ -2,7 +2,6 @@
 
 use super::digits::ManyDigits;
 use super::edit::say_if_it_moves;
-use super::input::Asked;
 use super::measured::{Measured, placed};
 use super::output::{self, Beside, Refusal, number};
 use super::pictures::Pictures;
@@ -10,7 +9,6 @@ use super::results::Results;
 use super::take::{Candidates, Take, Taken};
 use super::verify::check_cover;
 use super::{CLOSED, INCOMPLETE, NOT_PROVED, STOPPED, input, interrupt};
-use krawl::blocks::Account;
 use krawl::complete::{Complete, Keep, Options, Progress, Status, Tested, Unserved, all};
 use krawl::constraint::Symmetry;
 use krawl::problem::counted;
@@ -124,18 +122,9 @@ fn share(text: &str) -> Result<[usize; 2], String> {
 pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
     let (file, sketch) = (&arguments.file, arguments.sketch.as_deref());
     arguments.take.check(file)?;
-    let (asked, skeleton) = input::asked(
-        (file, sketch),
-        arguments.redundant_tolerance,
-        arguments.any_signs,
-    )?;
-    let (problem, made, surplus) = match asked {
-        Asked::Surplus(surplus) => (surplus.problem.clone(), Account::default(), Some(surplus)),
-        Asked::Problem(read) => {
-            let (problem, made) = *read;
-            (problem, made, None)
-        }
-    };
+    let tolerance = arguments.redundant_tolerance;
+    let asked = input::asked((file, sketch), tolerance, arguments.any_signs)?;
+    let problem = asked.problem;
     let measures = arguments.measured.of(&problem)?;
     let named = [arguments.json.as_deref(), None];
     let mut results = Results::open([file], named, &arguments.pictures, arguments.quiet)?;
@@ -159,7 +148,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
         cover: cert.is_some(),
         threads: arguments.threads.unwrap_or(0).into(),
         within_digits: true,
-        redundant_tolerance: arguments.redundant_tolerance,
+        redundant_tolerance: tolerance,
         progress: Some(&tell),
         store: arguments.store.as_ref().map(|folder| Keep {
             folder: folder.clone(),
@@ -171,7 +160,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
     if results.is_told() {
         say_if_it_moves(&problem);
     }
-    let result = match &surplus {
+    let result = match &asked.surplus {
         Some(surplus) => surplus.search(&options),
         None => all(&problem, &options),
     };
@@ -206,13 +195,16 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
     }
     let figures = || result.solutions.iter().map(placed);
     let either = result.symmetry == Symmetry::Isometries;
-    let conformers = skeleton.filter(|_| results.are_read()).map(|skeleton| {
-        let solutions = result.solutions.iter();
-        let middles = solutions.map(|s| s.points.iter().map(|p| p.map(|x| x.mid())).collect());
-        let middles: Vec<Vec<[f64; 3]>> = middles.collect();
-        let conformers = skeleton.conformers(&middles, either);
-        (skeleton, conformers)
-    });
+    let conformers = asked
+        .skeleton
+        .filter(|_| results.are_read())
+        .map(|skeleton| {
+            let solutions = result.solutions.iter();
+            let middles = solutions.map(|s| s.points.iter().map(|p| p.map(|x| x.mid())).collect());
+            let middles: Vec<Vec<[f64; 3]>> = middles.collect();
+            let conformers = skeleton.conformers(&middles, either);
+            (skeleton, conformers)
+        });
     let many = arguments
         .many
         .of(&problem, &result.reference, &result.solutions);
@@ -231,7 +223,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
             text += &conformers_to_table(&problem, skeleton, conformers);
         }
         text += &digits_to_table(&problem, 1, &many);
-        let made = made.clause();
+        let made = asked.made.clause();
         if !made.is_empty() {
             text +=
                 &format!("\nThe sketch was searched with as many equations as unknowns, {made}.\n");

@@ -6,7 +6,7 @@ use krawl::blocks::{
     Account, Census, Finding, MOST_POINTS, Surplus, Why, clusters, pinned, surplus,
 };
 use krawl::edit::{Decomposition, Standing, TooMany};
-use krawl::import::{self, Format};
+use krawl::import::{self, Format, Listed};
 use krawl::plan::Plan;
 use krawl::problem::{DEPENDS, FileFault, Object, Problem, Shape, Target, counted};
 use krawl::remarks::{in_words, moves, remarks};
@@ -48,16 +48,15 @@ const PATTERN: usize = 40;
 
 /// Runs the verb and returns the exit code.
 pub fn run(arguments: &Arguments) -> Result<u8, String> {
-    let printed = |text: &str, code| match output::print(text) {
-        true => Ok(code),
-        false => Ok(BAD_INPUT),
-    };
+    let printed = |text: &str, code| Ok(output::code(output::print(text), code));
     let format = input::format(&arguments.file);
     let is_molecule = matches!(format, Some(Format::Xyz | Format::Sdf | Format::Pdb));
-    if format.is_some()
-        && !(is_molecule && arguments.sketch.is_some())
-        && !is_single(&arguments.file, is_molecule)
-    {
+    // One molecule is described as a problem.
+    let is_one = || {
+        let is_single = || listed(&arguments.file).is_ok_and(|listed| listed.len() == 1);
+        is_molecule && (arguments.sketch.is_some() || is_single())
+    };
+    if format.is_some() && !is_one() {
         let (text, code) = describe_sketches(&arguments.file, arguments.sketch.as_deref())?;
         return printed(&text, code);
     }
@@ -67,10 +66,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
             let loose = Loose::of(&arguments.file).ok_or_else(|| message.clone())?;
             output::complain(&loose.decide(&message));
             output::print(&loose.in_words());
-            return Ok(match loose.census.surplus.is_empty() {
-                true => BAD_INPUT,
-                false => OVER,
-            });
+            return Ok(exit_code(&loose.census, BAD_INPUT));
         }
     };
     let mut text = describe(&problem, None);
@@ -80,7 +76,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
         false => surplus(&problem).unwrap_or_default(),
     };
     text += &surplus_in_words(&census);
-    let code = exit_code(&census);
+    let code = exit_code(&census, CLOSED);
     text += &match problem.is_absolute() {
         true => blocks_in_words(&Decomposition::of(&problem)),
         false if problem.is_distances_only() => clusters_in_words(&problem),
@@ -96,10 +92,10 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
     printed(&text, CLOSED)
 }
 
-/// The exit code of what was read.
-fn exit_code(census: &Census) -> u8 {
+/// The exit code of what was read, where nothing is one too many this one.
+fn exit_code(census: &Census, code: u8) -> u8 {
     match census.surplus.is_empty() {
-        true => CLOSED,
+        true => code,
         false => OVER,
     }
 }
@@ -116,28 +112,20 @@ fn surplus_in_words(census: &Census) -> String {
     text
 }
 
-/// A decomposition without what was left out of it: what is one too many is told by [`surplus`].
-fn without_left_out(mut found: Decomposition) -> Decomposition {
-    found.account.left_out.clear();
-    found
-}
-
-/// Whether a file holds one molecule, which is described as a problem.
-fn is_single(file: &Path, is_molecule: bool) -> bool {
-    let name = file.display().to_string();
-    let listed = input::bytes(file).map(|bytes| import::list(&name, &bytes));
-    is_molecule && listed.is_ok_and(|listed| listed.is_ok_and(|listed| listed.len() == 1))
+/// The sketches or molecules in a file of another program.
+fn listed(file: &Path) -> Result<Vec<Listed>, String> {
+    let listed = import::list(&file.display().to_string(), &input::bytes(file)?);
+    listed.map_err(|error| error.to_string())
 }
 
 /// What a file of another program holds: its sketches, or the one of them.
 fn describe_sketches(file: &Path, sketch: Option<&str>) -> Result<(String, u8), String> {
-    let name = file.display().to_string();
-    let bytes = input::bytes(file)?;
-    let listed = import::list(&name, &bytes).map_err(|error| error.to_string())?;
+    let listed = listed(file)?;
     if listed.len() != 1 && sketch.is_none() {
         let mut text = format!(
-            "{} in {name}; take one with --sketch NAME\n",
-            counted(listed.len(), "sketch")
+            "{} in {}; take one with --sketch NAME\n",
+            counted(listed.len(), "sketch"),
+            file.display()
         );
         for one in &listed {
             let drawn = counted(one.drawn, "thing");
@@ -150,10 +138,11 @@ fn describe_sketches(file: &Path, sketch: Option<&str>) -> Result<(String, u8), 
     let problem = &imported.problem;
     let mut text = format!("{}, read as\n", problem.name);
     let census = surplus(problem).unwrap_or_default();
-    let blocks = match census.surplus.is_empty() {
-        true => Decomposition::of(problem),
-        false => Decomposition::of(problem).map(without_left_out),
-    };
+    let mut blocks = Decomposition::of(problem);
+    // What is one too many is told by `surplus`.
+    if let (Ok(found), false) = (&mut blocks, census.surplus.is_empty()) {
+        found.account.left_out.clear();
+    }
     text += &describe(problem, Some((&blocks, &census)));
     text += &surplus_in_words(&census);
     let kept = Account::of(problem, 0).kept_in_words();
@@ -185,7 +174,7 @@ fn describe_sketches(file: &Path, sketch: Option<&str>) -> Result<(String, u8), 
         let _ = writeln!(text, "  {name:<13} {what}{tied}");
     }
     text += &blocks_in_words(&blocks);
-    Ok((text, exit_code(&census)))
+    Ok((text, exit_code(&census, CLOSED)))
 }
 
 /// How a problem in its own frame falls apart.

@@ -1,7 +1,8 @@
 //! `krawl compare`: what each mode and space, and each degree of accuracy, costs on problems.
 
 use super::output::{self, Destination};
-use super::{BAD_INPUT, CLOSED, STOPPED, interrupt};
+use super::results::Results;
+use super::{CLOSED, STOPPED, interrupt};
 use krawl::compare::{Comparison, Effort, Hooks, Method, compare, record_path};
 use krawl::problem::{Problem, Published};
 use krawl::report::{
@@ -69,10 +70,9 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
     // Whatever is wrong is said before anything runs.
     let subjects = arguments.files.iter().map(|file| read(file));
     let subjects = subjects.collect::<Result<Vec<Subject>, String>>()?;
-    let json = output::beside(&arguments.files, arguments.json.as_deref())?;
-    let csv = output::beside(&arguments.files, arguments.csv.as_deref())?;
-    let standard = Some(Destination::StandardOutput);
-    if json == standard && csv == standard {
+    let named = [arguments.json.as_deref(), arguments.csv.as_deref()];
+    let mut results = Results::open(&arguments.files, named, None, arguments.quiet)?;
+    if results.on_standard_output() > 1 {
         return Err("only one of `--json` and `--csv` can go to standard output".to_owned());
     }
     let folder = arguments.output.as_deref();
@@ -80,14 +80,12 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
         fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
     }
 
-    let silent = arguments.quiet || json == standard || csv == standard;
     let effort = Effort {
         repeats: arguments.repeat.into(),
         sweep: arguments.sweep,
         limit: arguments.limit,
     };
     let mut all: Vec<Compared> = Vec::new();
-    let mut written = true;
     let count = subjects.len();
     for (k, (subject, file)) in subjects.into_iter().zip(&arguments.files).enumerate() {
         let which = output::which_of((k, count), file);
@@ -105,17 +103,12 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
             comparison,
             published: subject.published,
         };
-        if !silent {
-            let gap = if all.is_empty() { "" } else { "\n" };
-            written &= output::print(&(gap.to_owned() + &comparison_to_table(&compared)));
-        }
+        let gap = if all.is_empty() { "" } else { "\n" };
+        results.print(|| gap.to_owned() + &comparison_to_table(&compared));
         if let Some(folder) = folder {
-            written &= draw(
-                folder,
-                &stem(file, &arguments.files),
-                &subject.problem,
-                &compared.comparison,
-            )?;
+            let stem = stem(file, &arguments.files);
+            let comparison = &compared.comparison;
+            results.note(draw(folder, &stem, &subject.problem, comparison)?);
         }
         all.push(compared);
         if interrupt::is_requested() {
@@ -124,23 +117,14 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
     }
 
     let json_text = || comparisons_to_json(&all) + "\n";
-    if let Some(json) = &json {
-        written &= json.write(&json_text());
-    }
-    if let Some(csv) = &csv {
-        written &= csv.write(&comparisons_to_csv(&all));
-    }
+    results.write_json(json_text);
+    results.write_csv(|| comparisons_to_csv(&all));
     if let Some(folder) = folder {
-        written &= write(folder, "comparison.json", &json_text())?;
-        written &= write(folder, "comparison.csv", &comparisons_to_csv(&all))?;
+        results.note(write(folder, "comparison.json", &json_text())?);
+        results.note(write(folder, "comparison.csv", &comparisons_to_csv(&all))?);
     }
-    Ok(match written {
-        false => BAD_INPUT,
-        true if interrupt::is_requested() || !all.iter().all(|c| came_to_an_end(&c.comparison)) => {
-            STOPPED
-        }
-        true => CLOSED,
-    })
+    let is_whole = !interrupt::is_requested() && all.iter().all(|c| came_to_an_end(&c.comparison));
+    Ok(results.code(if is_whole { CLOSED } else { STOPPED }))
 }
 
 /// Reads a problem and makes sure that it can be run.
@@ -199,16 +183,12 @@ fn draw(
     if let Ok(path) = path
         && path.step_ends.len() > 1
     {
-        written &= write(
-            folder,
-            &format!("{stem}-time.svg"),
-            &picture::time_along_path(&path),
-        )?;
-        written &= write(
-            folder,
-            &format!("{stem}-path.svg"),
-            &picture::projection(&path),
-        )?;
+        for (what, svg) in [
+            ("time", picture::time_along_path(&path)),
+            ("path", picture::projection(&path)),
+        ] {
+            written &= write(folder, &format!("{stem}-{what}.svg"), &svg)?;
+        }
     }
     Ok(written)
 }

@@ -1,8 +1,9 @@
 //! `krawl complex`: all complex solutions of a problem.
 
-use super::output::{self, Beside, Destination};
+use super::output::{self, Beside};
+use super::results::Results;
 use super::template::{Search, TemplateText, read};
-use super::{BAD_INPUT, CLOSED, INCOMPLETE, STOPPED, interrupt};
+use super::{CLOSED, INCOMPLETE, STOPPED, in_pool, interrupt};
 use crate::report::names;
 use krawl::certificate::complex::{ComplexFlaw, verify_complex_set};
 use krawl::complex::{Lowered, Status, Template, Ways, solve, to_certificate};
@@ -74,7 +75,8 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
     }
     let lowered = lowered;
     let given = || [&arguments.file].into_iter().chain(&arguments.template);
-    let json = output::beside(given(), arguments.json.as_deref())?;
+    let named = [arguments.json.as_deref(), None];
+    let mut results = Results::open(given(), named, None, arguments.quiet)?;
     output::refuse_read(given(), arguments.cert.as_deref())?;
     let cert = arguments.cert.as_deref().map(Beside::new).transpose()?;
     let line = ProgressLine::new(!arguments.quiet, "");
@@ -89,7 +91,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
         progress: Some(&tell),
         ..Ways::default()
     };
-    let result = arguments.search.in_pool(|| {
+    let result = in_pool(arguments.search.threads, || {
         let template = match &template {
             Some(text) => text.prove(&lowered)?,
             None => {
@@ -104,13 +106,12 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
     });
     line.clear();
     let result = result??;
-    let mut written = true;
     if let Some(cert) = &cert {
         match to_certificate(&problem, &lowered, &result) {
             Some(set) => {
                 let bytes = set.to_bytes();
-                written &= cert.write(&bytes);
-                let verdict = arguments.search.in_pool(|| verify_complex_set(&bytes))?;
+                results.note(cert.write(&bytes));
+                let verdict = in_pool(arguments.search.threads, || verify_complex_set(&bytes))?;
                 let verdict = verdict.map_err(|e| format!("{file}: {e}"))?;
                 if let Some(ComplexFlaw::False(why) | ComplexFlaw::NotProved(why)) = verdict.flaw {
                     output::complain(&format!(
@@ -119,7 +120,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
                 }
             }
             None => {
-                written = false;
+                results.note(false);
                 let why = no_certificate(&problem, &lowered);
                 let out = arguments.cert.as_deref().unwrap_or(Path::new("")).display();
                 output::complain(&format!(
@@ -128,23 +129,13 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
             }
         }
     }
-    if let Some(json) = &json {
-        written &= json.write(&(complex_to_json(&problem, &lowered, &result) + "\n"));
-    }
-    if !arguments.quiet && json != Some(Destination::StandardOutput) {
-        written &= output::print(&complex_to_table(
-            &problem,
-            &lowered,
-            &result,
-            arguments.all,
-        ));
-    }
-    Ok(match result.status {
-        _ if !written => BAD_INPUT,
+    results.write_json(|| complex_to_json(&problem, &lowered, &result) + "\n");
+    results.print(|| complex_to_table(&problem, &lowered, &result, arguments.all));
+    Ok(results.code(match result.status {
         Status::Complete => CLOSED,
         Status::Found => INCOMPLETE,
         Status::Partial => STOPPED,
-    })
+    }))
 }
 
 /// Why there is no certificate of a problem's solutions.

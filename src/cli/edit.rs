@@ -1,14 +1,13 @@
 //! `krawl edit`: changes dimensions and takes the figure along.
 
 use super::measured::Measured;
-use super::output::{self, Beside, Refusal};
+use super::output::{self, Beside, Certificate, Refusal};
 use super::pictures::Pictures;
 use super::results::Results;
 use super::take::check_format;
 use super::verify::check_written;
 use super::{BAD_INPUT, CLOSED, LIMIT, PASSES, STOPPED, input, interrupt, serve};
 use krawl::blocks::Account;
-use krawl::certificate::Writer;
 use krawl::edit::{Asked, Astray, Drag, Edited, Ending, OpenError, Session, Setting};
 use krawl::import::{Followed, Format};
 use krawl::problem::Problem;
@@ -16,9 +15,7 @@ use krawl::remarks::moves;
 use krawl::report::{
     Document, account_in_words, edit_to_table, followed_to_table, signs_of_figure,
 };
-use krawl::track::{Control, Options, StopKind, Witness};
-use std::fs::File;
-use std::io::BufWriter;
+use krawl::track::{Control, Options, StopKind};
 use std::path::{Path, PathBuf};
 
 /// Change dimensions of a figure and keep the figure, with proof, or say how far it can go
@@ -40,11 +37,8 @@ Exit codes: 0 reached: the figure printed is the one and only continuation; 3 li
 go so far and no further, or a point that is dragged did not come all the way; 4 passes: branches of figures
 seem to meet; 1 stopped: nothing could be proved from some point on; 2 bad input, or results that could not be written.")]
 pub struct Arguments {
-    /// The problem file (TOML), or a sketch of SolveSpace (.slvs) or FreeCAD (.FCStd)
-    file: PathBuf,
-    /// Which sketch of a file that holds several (`krawl check` lists them)
-    #[arg(long, value_name = "NAME")]
-    sketch: Option<String>,
+    #[command(flatten)]
+    source: input::Source,
     /// A dimension and its new value: a-b=5.2, radii:hole=3, c00f=45
     ///
     /// Given several times, all move together. Of a FreeCAD file a cell of a spreadsheet may be set, too: Spreadsheet.width=90
@@ -125,18 +119,19 @@ impl LeftOut {
 /// Runs the verb and returns the exit code.
 pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
     arguments.time.begin();
+    let file = &arguments.source.file;
     if let Some(out) = &arguments.out {
-        check_format(&arguments.file, out)?;
+        check_format(file, out)?;
     }
-    let mut loaded = input::load(&arguments.file, arguments.sketch.as_deref())?;
+    let mut loaded = arguments.source.load()?;
     let mut problem = loaded.problem.clone();
-    let in_file = |error: &dyn std::fmt::Display| in_file(&arguments.file, error);
+    let in_file = |error: &dyn std::fmt::Display| in_file(file, error);
     let options = Options {
         extended: !arguments.no_extended,
         ..arguments.left_out.options()
     };
     if arguments.serve {
-        let mut session = open(&problem, &arguments.file, &options, &mut Control::default())?;
+        let mut session = open(&problem, file, &options, &mut Control::default())?;
         return Ok(match serve::serve(&mut session, &loaded) {
             true => CLOSED,
             false => BAD_INPUT,
@@ -167,7 +162,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
     let numbers = asked.numbers().chain(followed.numbers()).collect();
     let asked = Asked::led(&problem, asked.parameters, numbers);
     let asked = asked.map_err(|e| in_file(&followed.in_error(&e)))?;
-    let is_freecad = Format::of(&arguments.file.display().to_string()) == Some(Format::FreeCad);
+    let is_freecad = input::format(file) == Some(Format::FreeCad);
     if arguments.out.is_some()
         && !is_freecad
         && let Some(index) = asked.straight(&problem)
@@ -193,7 +188,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
     let mut led = settings.clone();
     let mut cert = arguments.cert.as_deref();
     if cert.is_some() {
-        match certified(&arguments.file, (&problem, &settings), |session| {
+        match certified(file, (&problem, &settings), |session| {
             let edited = session.probe(&settings, &mut interrupt::control());
             astray = edited.astray.as_ref().map(Astray::in_words);
             (edited.account.clone(), reason(&edited))
@@ -206,17 +201,12 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
         }
     }
     let named = [arguments.json.as_deref(), None];
-    let pictures = &arguments.pictures;
-    let mut results = Results::open([&arguments.file], named, pictures, arguments.quiet)?;
+    let mut results = Results::open([file], named, &arguments.pictures, arguments.quiet)?;
     // Before any file is begun, so that an interrupt leaves none behind.
     interrupt::flag();
     let begun = cert.map(Beside::new).transpose()?;
-    let writer = |beside| Writer::new(BufWriter::new(Beside::file(beside)), &problem);
-    let mut witness = begun.as_ref().map(writer);
-    let mut control = Control {
-        witness: witness.as_mut().map(|writer| writer as &mut dyn Witness),
-        ..interrupt::control()
-    };
+    let mut witness = begun.as_ref().map(|beside| beside.certificate(&problem));
+    let mut control = interrupt::witnessed(witness.as_mut());
     if results.is_told() {
         say_if_it_moves(&problem);
     }
@@ -224,7 +214,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
         true => Session::open_with(&problem, &options, &mut control),
         false => Session::open_to_drag(&problem, &options, &mut control),
     };
-    let mut session = taken(opened, &arguments.file)?;
+    let mut session = taken(opened, file)?;
     let mut edited = match drags.is_empty() {
         true => session.edit_with(&led, &mut control),
         false => session.drag(&drags, &mut control),
@@ -241,7 +231,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
 
     let (is_written, verdict) = commit(
         (begun.as_ref(), witness),
-        (&arguments.file, &edited),
+        (file, &edited),
         cert.filter(|_| !arguments.no_verify),
         arguments.quiet,
     )?;
@@ -260,7 +250,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
         let mut changed = loaded.problem.clone();
         given.iter().for_each(|setting| setting.apply(&mut changed));
         changed.parameters = asked.parameters;
-        let bytes = loaded.rewritten(&arguments.file, &changed, &points, &objects);
+        let bytes = loaded.rewritten(file, &changed, &points, &objects);
         let bytes = bytes.map_err(|e| in_file(&e))?;
         results.note(Beside::new(out)?.write(&bytes));
     }
@@ -353,7 +343,7 @@ fn carried(settings: &[Setting], (from, to): (&Problem, &Problem)) -> Result<Vec
 /// pass. None is written where it would say more than the edit does, and that is said: it is about the equations, which go on where a line
 /// or arc vanishes.
 pub(super) fn commit(
-    (beside, writer): (Option<&Beside>, Option<Writer<'_, BufWriter<&File>>>),
+    (beside, writer): (Option<&Beside>, Option<Certificate>),
     (file, edited): (&Path, &Edited),
     path: Option<&Path>,
     quiet: bool,

@@ -5,14 +5,12 @@ use super::pictures::Pictures;
 use super::results::Results;
 use super::verify::check_written;
 use super::{CLOSED, INCOMPLETE, input, interrupt};
-use krawl::certificate::Writer;
+use crate::order::each_once;
 use krawl::complete::{self, all};
 use krawl::explore::{ExploreError, Explorer, Finish, Options, Progress};
 use krawl::problem::{Problem, Published};
 use krawl::report::{AllReal, Document, Explored, ProgressLine, TracedPath, explore_to_table};
-use krawl::track::{self, Control, Witness};
-use std::collections::BTreeSet;
-use std::io::BufWriter;
+use krawl::track;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -188,7 +186,8 @@ fn read(arguments: &Arguments) -> Result<(Problem, Vec<Published>), String> {
     if is_toml && arguments.sketch.is_none() {
         return Problem::read_with_published(&arguments.file).map_err(|e| e.to_string());
     }
-    let (problem, account) = input::whole(&arguments.file, arguments.sketch.as_deref())?;
+    let loaded = input::load(&arguments.file, arguments.sketch.as_deref())?;
+    let (problem, account) = input::whole(&arguments.file, &loaded)?;
     let clause = account.clause();
     if !clause.is_empty() {
         output::complain(&format!(
@@ -279,7 +278,7 @@ fn share(explorer: &mut Explorer, count: usize) -> Result<usize, ExploreError> {
 fn prove(explorer: &Explorer, folder: &Path, quiet: bool) -> Result<bool, String> {
     std::fs::create_dir_all(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
     let classes = explorer.contents().classes.iter();
-    let paths: BTreeSet<u64> = classes.map(|class| class.path).collect();
+    let paths = each_once(classes.map(|class| class.path));
     let mut well = true;
     for id in paths {
         let Some(problem) = explorer.problem_of(id) else {
@@ -289,11 +288,8 @@ fn prove(explorer: &Explorer, folder: &Path, quiet: bool) -> Result<bool, String
         well &= Destination::new(&text)?.write(&problem.to_toml());
         let cert = folder.join(format!("path-{id}.krawl"));
         let beside = Beside::new(&cert)?;
-        let mut writer = Writer::new(BufWriter::new(beside.file()), &problem);
-        let mut control = Control {
-            witness: Some(&mut writer as &mut dyn Witness),
-            ..interrupt::control()
-        };
+        let mut writer = beside.certificate(&problem);
+        let mut control = interrupt::witnessed(Some(&mut writer));
         track::solve_in_best_space(&problem, &track::Options::certified(), &mut control)
             .map_err(|error| format!("{}: {error}", text.display()))?;
         if interrupt::is_requested() {

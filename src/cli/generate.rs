@@ -1,7 +1,7 @@
 //! `krawl generate`: makes a large problem of a family.
 
-use super::output::Destination;
-use super::{BAD_INPUT, CLOSED};
+use super::CLOSED;
+use super::output::{self, Destination};
 use clap::ValueEnum;
 use krawl::generate::{Family, Recipe};
 use std::path::PathBuf;
@@ -72,9 +72,5 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
         seed: arguments.seed,
     };
     let problem = recipe.problem().map_err(|error| error.to_string())?;
-    Ok(if out.write(&problem.to_toml()) {
-        CLOSED
-    } else {
-        BAD_INPUT
-    })
+    Ok(output::code(out.write(&problem.to_toml()), CLOSED))
 }

@@ -89,14 +89,9 @@ pub fn provable(file: &Path, problem: &Problem) -> Result<(Problem, Account), St
     Ok((completed(problem).map_err(in_file)?, found.account))
 }
 
-/// The problem of a file as sets of all solutions are about it: of a problem file as it is, of a sketch of another program as
+/// The problem of a file that was read as sets of all solutions are about it: of a problem file as it is, of a sketch of another program as
 /// [`provable`] makes it.
-pub fn whole(file: &Path, sketch: Option<&str>) -> Result<(Problem, Account), String> {
-    whole_of(file, &load(file, sketch)?)
-}
-
-/// The same of a file that was read.
-pub fn whole_of(file: &Path, loaded: &Loaded) -> Result<(Problem, Account), String> {
+pub fn whole(file: &Path, loaded: &Loaded) -> Result<(Problem, Account), String> {
     if is_sketch(file) {
         return provable(file, &loaded.problem);
     }
@@ -109,43 +104,48 @@ pub fn whole_of(file: &Path, loaded: &Loaded) -> Result<(Problem, Account), Stri
 }
 
 /// What a set of all solutions is about.
-pub enum Asked {
+pub struct Asked {
+    /// There may be more equations than unknowns.
+    pub problem: Problem,
+    /// What was made of a sketch of another program for it.
+    pub made: Account,
     /// More distances than are needed, and nothing else; or those of bonds and bond angles of a molecule.
-    Surplus(Box<Surplus>),
-    /// Anything else, and what was made of a sketch of another program for it. There may be more equations than unknowns.
-    Problem(Box<(Problem, Account)>),
+    pub surplus: Option<Surplus>,
+    /// Of a molecule: its atoms and bonds.
+    pub skeleton: Option<Skeleton>,
 }
 
-/// Reads what a set of all solutions is to be about, with the signs that are asked for or, with `any_signs`, without; and of a
-/// molecule its atoms and bonds.
+/// Reads what a set of all solutions is to be about, with the signs that are asked for or, with `any_signs`, without.
 pub fn asked(
     (file, sketch): (&Path, Option<&str>),
     tolerance: Option<f64>,
     any_signs: bool,
-) -> Result<(Asked, Option<Skeleton>), String> {
+) -> Result<Asked, String> {
     let mut loaded = load(file, sketch)?.with_any_signs(any_signs);
     let imported = loaded.imported.as_mut();
     let skeleton = imported.and_then(|(imported, _)| imported.skeleton.take());
-    Ok((asked_of(file, loaded, tolerance)?, skeleton))
-}
-
-fn asked_of(file: &Path, loaded: Loaded, tolerance: Option<f64>) -> Result<Asked, String> {
-    let of_problem = |read| Asked::Problem(Box::new(read));
+    let of = |(problem, made), surplus| Asked {
+        problem,
+        made,
+        surplus,
+        skeleton,
+    };
     if is_sketch(file) {
-        return provable(file, &loaded.problem).map(of_problem);
+        return Ok(of(provable(file, &loaded.problem)?, None));
     }
     if let Some(surplus) = loaded.surplus() {
         let surplus = surplus.into_owned().with_tolerance(tolerance);
-        return Ok(Asked::Surplus(Box::new(surplus)));
+        let problem = surplus.problem.clone();
+        return Ok(of((problem, Account::default()), Some(surplus)));
     }
-    let Some(fault) = loaded.fault else {
-        return Ok(of_problem((loaded.problem, Account::default())));
-    };
-    let problem = loaded.problem.up_to_motions();
-    match has_equations_to_spare(&problem) {
-        true => Ok(of_problem((problem, Account::default()))),
-        false => Err(fault),
+    let mut problem = loaded.problem;
+    if let Some(fault) = loaded.fault {
+        problem = problem.up_to_motions();
+        if !has_equations_to_spare(&problem) {
+            return Err(fault);
+        }
     }
+    Ok(of((problem, Account::default()), None))
 }
 
 /// Whether a file is a sketch in its own frame, of SolveSpace or FreeCAD.
@@ -167,8 +167,11 @@ pub struct Loaded {
 /// `sketch` names the sketch.
 pub fn load(file: &Path, sketch: Option<&str>) -> Result<Loaded, String> {
     let loaded = load_again(file, sketch)?;
-    if let Some((imported, _)) = &loaded.imported {
-        tell(file, imported);
+    if let Some((imported, _)) = &loaded.imported
+        && !imported.notes.is_empty()
+    {
+        let (of, notes) = (&imported.problem.name, imported.notes.join("; "));
+        output::complain(&format!("{}: {of} was read {notes}", file.display()));
     }
     Ok(loaded)
 }
@@ -254,14 +257,6 @@ pub fn made(file: &Path) -> Option<Result<String, String>> {
         }),
     };
     made.map(|made| made.map_err(|error| format!("{name}: {error}")))
-}
-
-/// Says what was left out of a molecule as it was read.
-fn tell(file: &Path, imported: &Imported) {
-    if !imported.notes.is_empty() {
-        let (of, notes) = (&imported.problem.name, imported.notes.join("; "));
-        output::complain(&format!("{}: {of} was read {notes}", file.display()));
-    }
 }
 
 /// Reads a sketch of another program's file.

@@ -1,7 +1,8 @@
 //! Ctrl-C: once to stop cleanly, twice to stop at once; and `--time`, which is as Ctrl-C after so many seconds.
 
+use super::output::Certificate;
 use krawl::report::ProgressLine;
-use krawl::track::{Control, Progress};
+use krawl::track::{Control, Progress, Witness};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
@@ -31,6 +32,14 @@ pub fn control<'a>() -> Control<'a> {
     Control {
         cancel: Some(flag()),
         ..Control::default()
+    }
+}
+
+/// The same of one that writes a certificate, if there is one.
+pub fn witnessed<'a>(certificate: Option<&'a mut Certificate>) -> Control<'a> {
+    Control {
+        witness: certificate.map(|writer| writer as &mut dyn Witness),
+        ..control()
     }
 }
 

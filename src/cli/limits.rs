@@ -45,38 +45,30 @@ pub struct Arguments {
 /// Runs the verb and returns the exit code.
 pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
     arguments.time.begin();
-    let shown = arguments.source.file.display();
+    let file = &arguments.source.file;
     let loaded = arguments.source.load()?;
     let problem = &loaded.problem;
     output::say_if_signs_are_not_looked_at(problem);
-    let only = arguments
-        .only
-        .iter()
-        .map(|name| Setting::find(problem, name));
-    let only = only
-        .collect::<Result<Vec<_>, _>>()
-        .map_err(|error| format!("{shown}: {error}"))?;
+    let in_file = |error: &dyn std::fmt::Display| format!("{}: {error}", file.display());
+    let only = arguments.only.iter();
+    let only = only.map(|name| Setting::find(problem, name));
+    let only = only.collect::<Result<Vec<_>, _>>();
+    let mut only = only.map_err(|error| in_file(&error))?;
     loaded
         .check_numbers(&only)
-        .map_err(|error| format!("{shown}: {error}"))?;
-    match only.is_empty() {
-        true => loaded.say_computed(&problem.dimensions().collect::<Vec<_>>()),
-        false => loaded.say_computed(&only),
+        .map_err(|error| in_file(&error))?;
+    if only.is_empty() {
+        let all = problem.dimensions();
+        only = all.filter(|&index| loaded.has_number(index)).collect();
     }
-    let file = &arguments.source.file;
+    loaded.say_computed(&only);
     let named = [arguments.json.as_deref(), None];
     let mut results = Results::open([file], named, &arguments.pictures, arguments.quiet)?;
     let mut control = interrupt::control();
     let options = arguments.left_out.options();
     let mut session = open(problem, file, &options, &mut control)?;
-    let mut ranges: Vec<_> = match only.is_empty() {
-        true => session.ranges(&mut control),
-        false => only
-            .iter()
-            .map(|&index| session.range(index, &mut control))
-            .collect(),
-    };
-    ranges.retain(|range| loaded.has_number(range.index));
+    let ranges = only.iter().map(|&index| session.range(index, &mut control));
+    let mut ranges: Vec<_> = ranges.collect();
     for range in &mut ranges {
         loaded.add_left_out(&mut range.account, None);
     }

@@ -1,10 +1,11 @@
 //! Writing, with no panic where nobody reads.
 
+use krawl::certificate::Writer;
 use krawl::problem::Problem;
 use krawl::report::signs_not_looked_at;
 use krawl::track::Control;
 use std::fs;
-use std::io::{self, Write};
+use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 /// Says on standard error that the signs that a problem asks for are not looked at, where it asks for some.
@@ -55,13 +56,27 @@ pub fn exit_code(result: Result<u8, impl Into<Refusal>>) -> u8 {
     })
 }
 
+/// The exit code of a run that came to this one, if all could be written.
+pub fn code(is_written: bool, code: u8) -> u8 {
+    match is_written {
+        true => code,
+        false => super::BAD_INPUT,
+    }
+}
+
 /// Prints a text on standard output. A reader who left early has seen enough; any other failure
 /// is complained about. Returns whether all is well.
 pub fn print(text: &str) -> bool {
     let mut out = io::stdout().lock();
-    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+    let written = out.write_all(text.as_bytes()).and_then(|()| out.flush());
+    is_well(&"standard output", written)
+}
+
+/// Whether all is well with what was written, complaining otherwise. A reader who left early is no fault.
+fn is_well(what: &dyn std::fmt::Display, written: io::Result<()>) -> bool {
+    match written {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
-            complain(&format!("standard output cannot be written: {error}"));
+            complain(&format!("{what} cannot be written: {error}"));
             false
         }
         _ => true,
@@ -162,25 +177,20 @@ impl Destination {
             Destination::StandardOutput => return print(text),
             Destination::Device(path) => {
                 let open = fs::OpenOptions::new().write(true).open(path);
-                (
-                    path,
-                    open.and_then(|mut file| file.write_all(text.as_bytes())),
-                )
+                let written = open.and_then(|mut file| file.write_all(text.as_bytes()));
+                (path, written)
             }
             Destination::File(path) => match Beside::begin(path.clone()) {
                 Ok(beside) => return beside.write(text.as_bytes()),
                 Err(error) => (path, Err(error)),
             },
         };
-        match result {
-            Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
-                complain(&format!("{}: cannot be written: {error}", path.display()));
-                false
-            }
-            _ => true,
-        }
+        is_well(&format_args!("{}:", path.display()), result)
     }
 }
+
+/// A certificate on its way into a file.
+pub type Certificate<'a> = Writer<'a, BufWriter<&'a fs::File>>;
 
 /// A file that is written beside the one wanted, which it replaces when it is complete. Dropped
 /// before, it leaves nothing.
@@ -208,9 +218,9 @@ impl Beside {
         Ok(Beside { file, beside, path })
     }
 
-    /// The file that is being written.
-    pub fn file(&self) -> &fs::File {
-        &self.file
+    /// Begins a certificate about a problem as what is written.
+    pub fn certificate<'a>(&'a self, problem: &'a Problem) -> Certificate<'a> {
+        Writer::new(BufWriter::new(&self.file), problem)
     }
 
     /// Writes these bytes and puts the file in its place. Returns whether all is well, having complained otherwise.
@@ -224,13 +234,7 @@ impl Beside {
         let done = written
             .and_then(|()| self.file.sync_all())
             .and_then(|()| fs::rename(&self.beside, &self.path));
-        if let Err(error) = &done {
-            complain(&format!(
-                "{}: cannot be written: {error}",
-                self.path.display()
-            ));
-        }
-        done.is_ok()
+        is_well(&format_args!("{}:", self.path.display()), done)
     }
 }
 

@@ -1,7 +1,6 @@
 //! Pages and pictures that verbs with figures can write.
 
 use super::output::{self, Destination};
-use krawl::report::Document;
 use krawl::report::page::Page;
 use std::path::{Path, PathBuf};
 
@@ -25,12 +24,7 @@ pub struct Pictures {
     #[arg(long, value_name = "FILE", help_heading = HEADING, hide_short_help = true)]
     obj: Option<PathBuf>,
     /// Write the solutions as DXF, lines, circles and arcs in their size
-    #[arg(
-        long,
-        value_name = "FILE",
-        help_heading = "Pictures and figures",
-        hide_short_help = true
-    )]
+    #[arg(long, value_name = "FILE", help_heading = HEADING, hide_short_help = true)]
     dxf: Option<PathBuf>,
     /// Write the solutions as XYZ, as programs for molecules read it
     #[arg(long, value_name = "FILE", help_heading = HEADING)]
@@ -38,6 +32,7 @@ pub struct Pictures {
 }
 
 /// Destinations of pages, pictures and figures that are known to be possible.
+#[derive(Default)]
 pub struct Places<'a> {
     all: Vec<(Kind, Destination, &'a Path)>,
 }
@@ -109,15 +104,6 @@ impl Places<'_> {
     pub fn use_standard_output(&self) -> bool {
         let mut all = self.all.iter();
         all.any(|(_, destination, _)| *destination == Destination::StandardOutput)
-    }
-
-    /// Writes a result as pictures alone. Returns whether all is well, having complained otherwise.
-    pub fn write_page(&self, result: &Document) -> Result<bool, String> {
-        if self.is_empty() {
-            return Ok(true);
-        }
-        let page = Page::of(result).map_err(|error| error.to_string())?;
-        Ok(self.write(&page))
     }
 
     /// Writes all of it. Returns whether all is well, having complained otherwise.

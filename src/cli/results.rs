@@ -3,6 +3,7 @@
 use super::output::{self, Destination, beside};
 use super::pictures::{Pictures, Places};
 use krawl::report::Document;
+use krawl::report::page::Page;
 use std::path::{Path, PathBuf};
 
 /// The places that are named for results, looked for before a run begins, and whether all could be written so far.
@@ -20,13 +21,16 @@ impl<'a> Results<'a> {
     pub fn open<'f>(
         read: impl IntoIterator<Item = &'f PathBuf> + Clone,
         [json, csv]: [Option<&Path>; 2],
-        pictures: &'a Pictures,
+        pictures: impl Into<Option<&'a Pictures>>,
         quiet: bool,
     ) -> Result<Self, String> {
+        let pictures = pictures
+            .into()
+            .map(|pictures| pictures.places(read.clone()));
         Ok(Results {
             json: beside(read.clone(), json)?,
-            csv: beside(read.clone(), csv)?,
-            pictures: pictures.places(read)?,
+            csv: beside(read, csv)?,
+            pictures: pictures.transpose()?.unwrap_or_default(),
             quiet,
             is_written: true,
         })
@@ -83,7 +87,10 @@ impl<'a> Results<'a> {
 
     /// Writes a result as pictures alone.
     pub fn write_page(&mut self, result: &Document) -> Result<(), String> {
-        self.is_written &= self.pictures.write_page(result)?;
+        if !self.pictures.is_empty() {
+            let page = Page::of(result).map_err(|error| error.to_string())?;
+            self.is_written &= self.pictures.write(&page);
+        }
         Ok(())
     }
 
@@ -105,9 +112,6 @@ impl<'a> Results<'a> {
 
     /// The exit code of a run that came to this one, if all could be written.
     pub fn code(&self, code: u8) -> u8 {
-        match self.is_written {
-            true => code,
-            false => super::BAD_INPUT,
-        }
+        output::code(self.is_written, code)
     }
 }

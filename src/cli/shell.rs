@@ -1,7 +1,6 @@
 //! `krawl completions` and `krawl man`: what shells and `man` want to know of the program.
 
-use super::output;
-use super::{BAD_INPUT, CLOSED};
+use super::{CLOSED, output};
 use clap::CommandFactory;
 use std::path::PathBuf;
 
@@ -39,7 +38,8 @@ pub fn completions(arguments: &Completions) -> Result<u8, String> {
     let mut text = Vec::new();
     let mut command = super::Arguments::command();
     clap_complete::generate(arguments.shell, &mut command, "krawl", &mut text);
-    Ok(code(output::print(&String::from_utf8_lossy(&text))))
+    let is_printed = output::print(&String::from_utf8_lossy(&text));
+    Ok(output::code(is_printed, CLOSED))
 }
 
 /// Prints or writes the manual pages and returns the exit code.
@@ -50,14 +50,11 @@ pub fn man(arguments: &Man) -> Result<u8, String> {
         clap_mangen::Man::new(command)
             .render(&mut text)
             .map_err(|error| format!("the manual page could not be made: {error}"))?;
-        return Ok(code(output::print(&String::from_utf8_lossy(&text))));
+        let is_printed = output::print(&String::from_utf8_lossy(&text));
+        return Ok(output::code(is_printed, CLOSED));
     };
     std::fs::create_dir_all(folder)
         .and_then(|()| clap_mangen::generate_to(command, folder))
         .map_err(|error| format!("{}: {error}", folder.display()))?;
     Ok(CLOSED)
-}
-
-fn code(written: bool) -> u8 {
-    if written { CLOSED } else { BAD_INPUT }
 }

@@ -7,11 +7,8 @@ use super::pictures::Pictures;
 use super::results::Results;
 use super::{input, interrupt, table};
 use crate::places::Each as _;
-use krawl::certificate::Writer;
 use krawl::edit::{Asked, Setting};
 use krawl::report::{Document, sweep_in_words, sweep_to_csv};
-use krawl::track::{Control, Witness};
-use std::io::BufWriter;
 use std::path::PathBuf;
 
 /// Drive one dimension through a range: the figure as a function of it, every frame proved
@@ -146,12 +143,8 @@ fn drive(arguments: &Arguments, vary: &str, ends: [&str; 2]) -> Result<u8, Refus
     let mut results = arguments.results()?;
     interrupt::flag();
     let begun = cert.map(Beside::new).transpose()?;
-    let writer = |beside| Writer::new(BufWriter::new(Beside::file(beside)), &problem);
-    let mut witness = begun.as_ref().map(writer);
-    let mut control = Control {
-        witness: witness.as_mut().map(|writer| writer as &mut dyn Witness),
-        ..interrupt::control()
-    };
+    let mut witness = begun.as_ref().map(|beside| beside.certificate(&problem));
+    let mut control = interrupt::witnessed(witness.as_mut());
     let options = arguments.left_out.options();
     let mut session = open(&problem, &arguments.source.file, &options, &mut control)?;
     let mut sweep = session.sweep(index, (&from, &to), arguments.frames as usize, &mut control);

@@ -22,41 +22,34 @@ struct Table {
 
 impl Table {
     fn read(file: &Path) -> Result<Self, String> {
-        let shown = file.display();
+        let in_file = |what: String| format!("{}: {what}", file.display());
+        let wrong = |error: csv::Error| in_file(error.to_string());
         let reader = csv::ReaderBuilder::new()
             .trim(csv::Trim::All)
             .comment(Some(b'#'))
             .from_path(file);
-        let mut reader = reader.map_err(|error| format!("{shown}: {error}"))?;
+        let mut reader = reader.map_err(wrong)?;
         let cells = |record: &csv::StringRecord| record.iter().map(str::to_owned).collect();
-        let names: Vec<String> = match reader.headers() {
-            Ok(names) => cells(names),
-            Err(error) => return Err(format!("{shown}: {error}")),
-        };
+        let names: Vec<String> = reader.headers().map(cells).map_err(wrong)?;
         let mut seen = HashSet::new();
         if let Some(twice) = names.iter().find(|name| !seen.insert(name.as_str())) {
-            return Err(format!(
-                "{shown}: there are two columns {twice}: leave out one of them"
-            ));
+            let what = format!("there are two columns {twice}: leave out one of them");
+            return Err(in_file(what));
         }
-        let rows = reader.records().map(|record| {
-            record
-                .as_ref()
-                .map(cells)
-                .map_err(|error| error.to_string())
-        });
+        let rows = reader.records().map(|record| Ok(cells(&record?)));
         let rows = rows.collect::<Result<Vec<Vec<String>>, _>>();
-        let rows = rows.map_err(|error| format!("{shown}: {error}"))?;
+        let rows = rows.map_err(wrong)?;
         for (row, cells) in rows.iter().enumerate() {
             for (name, cell) in names.iter().zip(cells) {
                 if let Err(error) = cell.parse::<Decimal>() {
-                    return Err(format!("{shown}: row {}, {name}: {error}", row + 1));
+                    return Err(in_file(format!("row {}, {name}: {error}", row + 1)));
                 }
             }
         }
         match rows.is_empty() {
-            true => Err(format!(
-                "{shown}: there is no row: the first line has the names of dimensions, each other one their values"
+            true => Err(in_file(
+                "there is no row: the first line has the names of dimensions, each other one their values"
+                    .to_owned(),
             )),
             false => Ok(Table { names, rows }),
         }

@@ -95,28 +95,18 @@ impl Taken {
             std::array::from_fn::<f64, 3, _>(|k| (at[k] - sketch[k]).powi(2))
         });
         let objects = self.objects.iter().zip(&problem.objects);
-        let bodies = objects.filter_map(|(at, object)| match (at, &object.shape) {
-            (
-                Located::Pose { at, axes },
-                Shape::Body {
-                    place: Some(place), ..
-                },
-            ) => {
-                let Located::Pose {
-                    at: drawn,
-                    axes: turned,
-                } = Located::posed(place)
-                else {
-                    return None;
-                };
-                let numbers = at.iter().chain(axes.iter().flatten());
-                let others = drawn.iter().chain(turned.iter().flatten());
-                let off = numbers
-                    .zip(others)
-                    .map(|(x, y)| (x.mid() - y.mid()).powi(2));
-                Some(off.sum::<f64>())
-            }
+        let numbers = |located: &Located| match located {
+            Located::Pose { at, axes } => Some([*at, axes[0], axes[1], axes[2]].concat()),
             _ => None,
+        };
+        let bodies = objects.filter_map(|(at, object)| {
+            let Shape::Body { place, .. } = &object.shape else {
+                return None;
+            };
+            let drawn = numbers(&Located::posed(place.as_ref()?))?;
+            let pairs = numbers(at)?.into_iter().zip(drawn);
+            let off = pairs.map(|(x, y)| (x.mid() - y.mid()).powi(2));
+            Some(off.sum::<f64>())
         });
         squares.sum::<f64>() + bodies.sum::<f64>()
     }
@@ -196,12 +186,8 @@ impl Take {
         figure: &impl Fn(u64) -> Result<Taken, String>,
     ) -> Result<u64, String> {
         const MOST: u64 = 100_000;
-        let Candidates {
-            count,
-            first,
-            is_all,
-        } = listed;
-        match (self.pick, first, count) {
+        let (count, is_all) = (listed.count, listed.is_all);
+        match (self.pick, listed.first, count) {
             (_, _, 0) => Err("there is no figure to take".to_owned()),
             (Some(k), _, _) if k <= count => Ok(k - 1),
             (Some(k), _, _) if is_all => {

@@ -2,7 +2,7 @@
 
 use super::input;
 use super::output::{self, Destination};
-use super::{BAD_INPUT, CLOSED, INCOMPLETE, interrupt};
+use super::{CLOSED, INCOMPLETE, in_pool, interrupt};
 use krawl::complex::{Effort, Fibre, Filling, Lowered, Template, Ways, fill, lower, lower_for};
 use krawl::problem::{Problem, counted};
 use krawl::report::ProgressLine;
@@ -65,15 +65,10 @@ pub struct Search {
     pub time: Option<f64>,
     /// Threads to use [default: one per processor]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    threads: Option<u16>,
+    pub threads: Option<u16>,
 }
 
 impl Search {
-    /// Runs what follows with the number of threads asked for.
-    pub fn in_pool<T: Send>(&self, work: impl FnOnce() -> T + Send) -> Result<T, String> {
-        super::in_pool(self.threads, work)
-    }
-
     /// Fills a fibre.
     ///
     /// `from` are solutions that are known already.
@@ -158,7 +153,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
     let out = Destination::new(&arguments.out)?;
     let line = ProgressLine::new(!arguments.quiet, "");
     let begin = Instant::now();
-    let fibre = arguments.search.in_pool(|| {
+    let fibre = in_pool(arguments.search.threads, || {
         let from = from.as_ref().map(|text| text.prove(&lowered)).transpose()?;
         let fibre = arguments.search.fill(&lowered, from.as_ref(), &line);
         fibre.map_err(|error| format!("{file}: {error}"))
@@ -172,11 +167,8 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
     if !arguments.quiet && out != Destination::StandardOutput {
         written &= output::print(&text);
     }
-    Ok(match is_full {
-        _ if !written => BAD_INPUT,
-        true => CLOSED,
-        false => INCOMPLETE,
-    })
+    let code = if is_full { CLOSED } else { INCOMPLETE };
+    Ok(output::code(written, code))
 }
 
 /// What was found, in words.
@@ -221,20 +213,19 @@ fn summary(problem: &Problem, lowered: &Lowered, fibre: &Fibre, seconds: f64) ->
             led.infinite
         );
     }
-    let Effort {
-        paths,
-        tubes,
-        steps,
-        ..
-    } = fibre.effort;
-    let took = [(tubes, "tube", ""), (steps, "step", " in floats")];
+    let effort = &fibre.effort;
+    let took = [
+        (effort.tubes, "tube", ""),
+        (effort.steps, "step", " in floats"),
+    ];
     let took = took.into_iter().filter(|(count, ..)| *count > 0);
     let took: String = took
         .map(|(count, what, how)| format!("{}{how}, ", counted(count, what)))
         .collect();
     text += &format!(
-        "{} between random instances, {paths} paths, {took}{seconds:.2} s\n",
-        counted(fibre.ways, "way")
+        "{} between random instances, {} paths, {took}{seconds:.2} s\n",
+        counted(fibre.ways, "way"),
+        effort.paths
     );
     if let (failed, Some(reason)) = &fibre.failed {
         text += &format!("{failed} paths were given up, the last because {reason}\n");

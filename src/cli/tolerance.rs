@@ -80,7 +80,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
     let file = &arguments.source.file;
     let loaded = arguments.source.load()?;
     loaded.say_computed(&loaded.problem.dimensions().collect::<Vec<_>>());
-    let (problem, made) = input::whole_of(file, &loaded)?;
+    let (problem, made) = input::whole(file, &loaded)?;
     let made = made.with_other_numbers();
     output::say_if_signs_are_not_looked_at(&problem);
     let named = [arguments.json.as_deref(), arguments.csv.as_deref()];

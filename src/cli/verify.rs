@@ -86,7 +86,10 @@ fn check(arguments: &Arguments) -> Result<u8, String> {
             Contents::Cover => verify_the_cover(arguments, &bytes)?,
             _ => verify_the_set(arguments, &bytes)?,
         };
-        return Ok(conclude(arguments, proved, of_file));
+        let found = compare(of_file, proved.is_about);
+        let of_it = |file: &Path| of_the_set(file, proved.compared, found.as_ref());
+        let said = (proved.text, proved.code);
+        return Ok(conclude(arguments, said, (found.is_some(), of_it), of_file));
     }
     let settings = Settings {
         threads: arguments.threads.unwrap_or(0).into(),
@@ -97,36 +100,30 @@ fn check(arguments: &Arguments) -> Result<u8, String> {
     let verdict = verify(file, &settings, &mut show);
     line.clear();
     let verdict = verdict.map_err(|error| format!("{name}: {error}"))?;
-    let (is_it, found) = compare(of_file, |problem| verdict.is_about(problem));
+    let found = compare(of_file, |problem| verdict.is_about(problem));
     // What an edit led beyond 0 or 180 degrees.
     let turned = |problem: &Problem| verdict.is_about(&with_turns_of(problem, &verdict.problem));
-    let is_turned = !is_it && compare(of_file, turned).0;
-    let same = is_it || is_turned;
-    let mut text = theorem(&verdict, clock.elapsed());
-    if let Some(file) = &arguments.file {
-        text += &match same {
-            true if is_turned => {
-                about(file, &found)
-                    + "Angles of it that were led beyond 0 or 180 degrees are `turns` in the certificate, in the sense in which they are drawn.\n"
-            }
-            true => about(file, &found),
-            false => format!(
-                "REFUTED: the problem is not the one in {}.\n",
-                file.display()
-            ),
-        };
-    }
-    text += without_signs(of_file);
-    if !arguments.quiet && !output::print(&text) {
-        return Ok(BAD_INPUT);
-    }
-    Ok(match verdict.outcome {
-        _ if !same => REFUTED,
+    let is_turned = found.is_none() && compare(of_file, turned).is_some();
+    let (same, found) = (found.is_some() || is_turned, found.unwrap_or_default());
+    let of_it = |file: &Path| match same {
+        true if is_turned => {
+            about(file, &found)
+                + "Angles of it that were led beyond 0 or 180 degrees are `turns` in the certificate, in the sense in which they are drawn.\n"
+        }
+        true => about(file, &found),
+        false => format!(
+            "REFUTED: the problem is not the one in {}.\n",
+            file.display()
+        ),
+    };
+    let code = match verdict.outcome {
         Outcome::Verified => CLOSED,
         Outcome::Refuted(_) => REFUTED,
         Outcome::NotProved(_) => NOT_PROVED,
         Outcome::Partial(_) => INCOMPLETE,
-    })
+    };
+    let text = theorem(&verdict, clock.elapsed());
+    Ok(conclude(arguments, (text, code), (same, of_it), of_file))
 }
 
 /// What a file may stand for in a certificate, each with what was left out and held for it.
@@ -145,7 +142,7 @@ fn of_file(
             loaded.add_left_out(&mut account, None);
             (problem, account)
         }),
-        _ => input::whole_of(path, &loaded),
+        _ => input::whole(path, &loaded),
     };
     let without = loaded.surplus().map(|surplus| {
         let mut account = Account::default();
@@ -171,14 +168,12 @@ fn without_signs(of_file: OfFile) -> &'static str {
 }
 
 /// Whether a certificate is about a file, as which of what it may stand for; without a file it is.
-fn compare(of_file: OfFile, is_about: impl Fn(&Problem) -> bool) -> (bool, Account) {
+fn compare(of_file: OfFile, is_about: impl Fn(&Problem) -> bool) -> Option<Account> {
     let Some(of_file) = of_file else {
-        return (true, Account::default());
+        return Some(Account::default());
     };
-    match of_file.iter().find(|(problem, _)| is_about(problem)) {
-        Some((_, account)) => (true, account.clone()),
-        None => (false, Account::default()),
-    }
+    let found = of_file.iter().find(|(problem, _)| is_about(problem));
+    found.map(|(_, account)| account.clone())
 }
 
 /// That the problem of a certificate is that of a file, what was compared, and what was made of that.
@@ -216,40 +211,41 @@ struct Proved {
     compared: Compared,
 }
 
-/// Prints what was proved, and whether it is about the same as the problem file, if there is one.
-fn conclude(arguments: &Arguments, proved: Proved, of_file: OfFile) -> u8 {
-    let mut text = proved.text;
-    let (same, found) = compare(of_file, proved.is_about);
-    if let Some(file) = &arguments.file {
-        let (what, which, sketch) = match proved.compared {
-            Compared::Distances => (
-                "names of the points and the distances",
-                "names of the points or the distances",
-                "; where the sketches have the points was not compared, as the set does not depend on it",
-            ),
-            Compared::All => (
-                "points, where the sketch has them, and all constraints",
-                "points, their places in the sketch or the constraints",
-                "",
-            ),
-        };
-        text += &match same {
-            true => format!(
-                "The {what} are those in {}, exactly{sketch}.{}\n",
-                file.display(),
-                held_and_left_out(&found)
-            ),
-            false => format!(
-                "REFUTED: the {which} are not those in {}.\n",
-                file.display()
-            ),
-        };
+/// What was `found` of the same set of a problem file, or that it is about another problem.
+fn of_the_set(file: &Path, compared: Compared, found: Option<&Account>) -> String {
+    let (what, which, sketch) = match compared {
+        Compared::Distances => (
+            "names of the points and the distances",
+            "names of the points or the distances",
+            "; where the sketches have the points was not compared, as the set does not depend on it",
+        ),
+        Compared::All => (
+            "points, where the sketch has them, and all constraints",
+            "points, their places in the sketch or the constraints",
+            "",
+        ),
+    };
+    let file = file.display();
+    match found {
+        Some(found) => format!(
+            "The {what} are those in {file}, exactly{sketch}.{}\n",
+            held_and_left_out(found)
+        ),
+        None => format!("REFUTED: the {which} are not those in {file}.\n"),
     }
-    match arguments.quiet || output::print(&(text + without_signs(of_file))) {
-        false => BAD_INPUT,
-        true if same => proved.code,
-        true => REFUTED,
-    }
+}
+
+/// Prints what was proved, and whether it is about the `same` as the problem file, if there is one.
+fn conclude(
+    arguments: &Arguments,
+    (mut text, code): (String, u8),
+    (same, of_it): (bool, impl FnOnce(&Path) -> String),
+    of_file: OfFile,
+) -> u8 {
+    text += &arguments.file.as_deref().map(of_it).unwrap_or_default();
+    text += without_signs(of_file);
+    let is_printed = arguments.quiet || output::print(&text);
+    output::code(is_printed, if same { code } else { REFUTED })
 }
 
 /// Checks a set of complex solutions.

@@ -7,26 +7,27 @@
 
 mod computed;
 mod elsewhere;
+mod followed;
 mod formula;
 mod quantity;
+mod rewrite;
 mod shape;
 
-use super::drawing::{Drawing, decimal};
-use super::{Figure, Followed, Follower, Imported, Listed, Places as AllPlaces, Tied};
-use crate::edit::Setting;
-use crate::order::InOrder;
+use super::drawing::Drawing;
+use super::{Imported, Listed, Places as AllPlaces};
 use crate::places::Each as _;
-use crate::problem::{Item, Point, Problem, Shape};
-use computed::{Evaluation, Numbers};
+use crate::problem::{Item, Shape};
+use computed::Numbers;
 use elsewhere::Shapes;
+pub use followed::{computed, followed};
+pub use rewrite::rewrite;
 use roxmltree::{Document, Node};
 use shape::{Outline, Seen};
 use std::collections::{HashMap, HashSet};
-use std::io::{Cursor, Read, Write};
+use std::io::{Cursor, Read};
 use std::ops::Range;
 use std::str::FromStr;
-use zip::write::SimpleFileOptions;
-use zip::{CompressionMethod, ZipArchive, ZipWriter};
+use zip::ZipArchive;
 
 const DOCUMENT: &str = "Document.xml";
 /// Where the centre of a circle or arc stands.
@@ -144,25 +145,15 @@ pub fn list(bytes: &[u8]) -> Result<Vec<Listed>, String> {
     Ok(listed.collect())
 }
 
-/// An edge, or what else is drawn.
-#[derive(Debug, Clone)]
-enum Drawn {
-    Line {
-        ends: [usize; 2],
-        object: Option<usize>,
-    },
-    Point(usize),
-    Circle {
-        center: usize,
-        object: Option<usize>,
-    },
-    Arc {
-        center: usize,
-        ends: [usize; 2],
-        object: Option<usize>,
-    },
-    /// Of a kind that krawl does not have.
-    Other,
+/// An edge, or what else is drawn; nothing of all this where it is of a kind that krawl does not have.
+#[derive(Debug, Clone, Copy, Default)]
+struct Drawn {
+    /// Of a line or an arc.
+    ends: Option<[usize; 2]>,
+    /// Of a circle or an arc; of a point that is drawn alone, the point.
+    center: Option<usize>,
+    /// The line, circle or arc, unless it is too small to be one.
+    object: Option<usize>,
 }
 
 /// Which number of an edge stands in an attribute.
@@ -270,7 +261,7 @@ impl Reader {
         match read {
             Some((node, outline)) => self.draw(id, outline, is_own.then_some(node)),
             None => {
-                self.edges.insert(id, Drawn::Other);
+                self.edges.insert(id, Drawn::default());
                 if is_own {
                     let kind = kind.trim_start_matches("Part::Geom");
                     self.drawing.keep_outline(kind, format!("e{}", id + 1));
@@ -285,20 +276,17 @@ impl Reader {
             None => format!("external{}", -2 - id),
             Some(_) => format!("e{}", id + 1),
         };
-        let drawn = match outline {
+        let (ends, center, object) = match outline {
             Outline::Line([a, b]) => {
                 let start = own.map(|node| (node, ["StartX", "StartY"]));
                 let end = own.map(|node| (node, ["EndX", "EndY"]));
                 let a = self.point(format!("{name}.start"), a, start);
                 let b = self.point(format!("{name}.end"), b, end);
-                let object = self.drawing.line(name, [a, b]);
-                Drawn::Line {
-                    ends: [a, b],
-                    object,
-                }
+                (Some([a, b]), None, self.drawing.line(name, [a, b]))
             }
             Outline::Point(at) => {
-                Drawn::Point(self.point(name, at, own.map(|node| (node, ["X", "Y"]))))
+                let own = own.map(|node| (node, ["X", "Y"]));
+                (None, Some(self.point(name, at, own)), None)
             }
             Outline::Circle { center, radius } => {
                 let own_center = own.map(|node| (node, CENTER));
@@ -307,7 +295,7 @@ impl Reader {
                 if let (Some(object), Some(node)) = (object, own) {
                     self.place(node, "Radius", Number::Radius(object));
                 }
-                Drawn::Circle { center, object }
+                (None, Some(center), object)
             }
             Outline::Arc { center, ends } => {
                 let own_center = own.map(|node| (node, CENTER));
@@ -324,12 +312,13 @@ impl Reader {
                     self.place(node, "EndAngle", angle(last));
                 }
                 let object = self.drawing.arc(name, [center, a, b]);
-                Drawn::Arc {
-                    center,
-                    ends: [a, b],
-                    object,
-                }
+                (Some([a, b]), Some(center), object)
             }
+        };
+        let drawn = Drawn {
+            ends,
+            center,
+            object,
         };
         self.edges.insert(id, drawn);
         if own.is_none() {
@@ -341,9 +330,10 @@ impl Reader {
     /// The axes, when they are first asked for.
     fn edge(&mut self, id: i64) -> Option<Drawn> {
         if !self.edges.contains_key(&id) && matches!(id, -1 | -2) {
-            let origin = match self.edges.get(&(-3 - id)) {
-                Some(Drawn::Line { ends, .. }) => ends[0],
-                _ => self.drawing.fixed_point("origin".to_owned(), [0.0, 0.0]),
+            let other = self.edges.get(&(-3 - id));
+            let origin = match other.and_then(|axis| axis.ends) {
+                Some(ends) => ends[0],
+                None => self.drawing.fixed_point("origin".to_owned(), [0.0, 0.0]),
             };
             let (name, at) = match id {
                 -1 => ("x", [self.size, 0.0]),
@@ -351,54 +341,45 @@ impl Reader {
             };
             let unit = self.drawing.fixed_point(format!("{name}-unit"), at);
             let object = self.drawing.line(format!("{name}-line"), [origin, unit]);
-            let ends = [origin, unit];
-            self.edges.insert(id, Drawn::Line { ends, object });
+            let axis = Drawn {
+                ends: Some([origin, unit]),
+                center: None,
+                object,
+            };
+            self.edges.insert(id, axis);
         }
-        self.edges.get(&id).cloned()
+        self.edges.get(&id).copied()
     }
 
     fn point_of(&mut self, (id, position): (i64, i64)) -> Option<usize> {
-        match (self.edge(id)?, position) {
-            (Drawn::Line { ends, .. } | Drawn::Arc { ends, .. }, 1) => Some(ends[0]),
-            (Drawn::Line { ends, .. } | Drawn::Arc { ends, .. }, 2) if id != -1 && id != -2 => {
-                Some(ends[1])
-            }
-            (Drawn::Point(p), 1..=3) => Some(p),
-            (Drawn::Circle { center, .. } | Drawn::Arc { center, .. }, 3) => Some(center),
+        let drawn = self.edge(id)?;
+        match (position, drawn.ends) {
+            (1, Some(ends)) => Some(ends[0]),
+            (2, Some(ends)) if id != -1 && id != -2 => Some(ends[1]),
+            (1 | 2, None) if drawn.object.is_none() => drawn.center,
+            (3, _) => drawn.center,
             _ => None,
         }
     }
 
     fn object_of(&mut self, id: i64) -> Option<usize> {
-        match self.edge(id)? {
-            Drawn::Line { object, .. }
-            | Drawn::Circle { object, .. }
-            | Drawn::Arc { object, .. } => object,
-            _ => None,
-        }
+        self.edge(id)?.object
     }
 
     /// What a constraint names of what is drawn: a point of an edge, or all of it.
     fn items(&self, (id, position): (i64, i64)) -> Vec<Item> {
-        let point = |p: usize| vec![Item::Point(p)];
-        let (ends, center, object) = match self.edges.get(&id) {
-            None | Some(Drawn::Other) => return Vec::new(),
-            Some(Drawn::Point(p)) => return point(*p),
-            Some(&Drawn::Line { ends, object }) => (ends.to_vec(), None, object),
-            Some(&Drawn::Circle { center, object }) => (Vec::new(), Some(center), object),
-            Some(&Drawn::Arc {
-                center,
-                ends,
-                object,
-            }) => (ends.to_vec(), Some(center), object),
+        let drawn = self.edges.get(&id).copied().unwrap_or_default();
+        let points = match (position, drawn.ends, drawn.center, drawn.object) {
+            (1 | 2, Some(ends), ..) => vec![ends[position as usize - 1]],
+            (3, _, Some(center), _) => vec![center],
+            (.., Some(object)) => return vec![Item::Object(object)],
+            // A point, or too small to be an object.
+            (_, ends, center, None) => {
+                let ends = ends.into_iter().flatten();
+                center.into_iter().chain(ends).collect()
+            }
         };
-        match (position, object) {
-            (1 | 2, _) if !ends.is_empty() => point(ends[position as usize - 1]),
-            (3, _) if center.is_some() => center.into_iter().map(Item::Point).collect(),
-            (_, Some(object)) => vec![Item::Object(object)],
-            // Too small to be an object.
-            (_, None) => center.into_iter().chain(ends).map(Item::Point).collect(),
-        }
+        points.into_iter().map(Item::Point).collect()
     }
 
     fn line_of(&mut self, id: i64) -> Option<usize> {
@@ -411,19 +392,19 @@ impl Reader {
         self.drawing.if_round(object)
     }
 
-    fn ends_of(&mut self, id: i64) -> Option<[usize; 2]> {
-        match self.edge(id)? {
-            Drawn::Line { ends, .. } => Some(ends),
-            _ => None,
+    /// Two points: the ends of a line that is named alone, or what is named of two edges.
+    fn ends_of(&mut self, first: (i64, i64), second: (i64, i64)) -> Option<[usize; 2]> {
+        match (first.1, second.0) {
+            (0, NONE) => {
+                let drawn = self.edge(first.0)?;
+                drawn.ends.filter(|_| drawn.center.is_none())
+            }
+            _ => self.points_of([first, second]),
         }
     }
 
     fn points_of(&mut self, both: [(i64, i64); 2]) -> Option<[usize; 2]> {
         Some([self.point_of(both[0])?, self.point_of(both[1])?])
-    }
-
-    fn are_lines(&self, edges: [usize; 2]) -> [bool; 2] {
-        edges.each(|edge| matches!(self.drawing.shape(edge), Shape::Line(_)))
     }
 
     /// Puts a constraint down; `None` where there is no kind for it.
@@ -439,13 +420,8 @@ impl Reader {
         let (key, items) = match whole(node, "Type") {
             1 => ("coincident", points(self.points_of([first, second])?)),
             kind @ (2 | 3) => {
-                let ends = match (first.1, has_second) {
-                    (0, false) => self.ends_of(first.0)?,
-                    (_, true) => self.points_of([first, second])?,
-                    _ => return None,
-                };
                 let key = if kind == 2 { "horizontal" } else { "vertical" };
-                (key, points(ends))
+                (key, points(self.ends_of(first, second)?))
             }
             4 => {
                 let lines = [self.line_of(first.0)?, self.line_of(second.0)?];
@@ -467,11 +443,7 @@ impl Reader {
                 (key, vec![one, other])
             }
             6 => {
-                let ends = match (first.1, second) {
-                    (0, (NONE, _)) => self.ends_of(first.0)?,
-                    (1.., _) => self.points_of([first, second])?,
-                    _ => return None,
-                };
+                let ends = self.ends_of(first, second)?;
                 self.drawing.distance(index, ends, value);
                 return Some(());
             }
@@ -482,11 +454,7 @@ impl Reader {
                     let key = if is_x { "x" } else { "y" };
                     (key, vec![Item::Point(self.point_of(first)?)])
                 } else {
-                    let ends = match (first.1, has_second) {
-                        (0, false) => self.ends_of(first.0)?,
-                        (1.., true) => self.points_of([first, second])?,
-                        _ => return None,
-                    };
+                    let ends = self.ends_of(first, second)?;
                     (if is_x { "dx" } else { "dy" }, points(ends))
                 }
             }
@@ -497,8 +465,8 @@ impl Reader {
                 let is_between = degrees > 0.0 && degrees < 180.0;
                 let key = if is_between { "angles" } else { "turns" };
                 // How far an arc goes round, counter-clockwise.
-                if let (Drawn::Arc { center, ends, .. }, false) = (self.edge(first.0)?, has_second)
-                {
+                let drawn = self.edge(first.0)?;
+                if let (Some(ends), Some(center), false) = (drawn.ends, drawn.center, has_second) {
                     (key, [ends[0], center, ends[1]].each(Item::Point).to_vec())
                 } else {
                     let one = self.line_of(first.0)?;
@@ -523,7 +491,8 @@ impl Reader {
             }
             12 => {
                 let edges = [self.object_of(first.0)?, self.object_of(second.0)?];
-                let [one, other] = self.are_lines(edges);
+                let is_line = |edge| matches!(self.drawing.shape(edge), Shape::Line(_));
+                let [one, other] = edges.each(is_line);
                 if one != other {
                     return None;
                 }
@@ -596,7 +565,7 @@ impl Reader {
             // A line at a right angle to a circle goes through its centre.
             let other = [first.0, second.0].map(|id| self.edge(id));
             for edge in other.into_iter().flatten() {
-                if let Drawn::Circle { center, .. } | Drawn::Arc { center, .. } = edge {
+                if let (Some(center), Some(_)) = (edge.center, edge.object) {
                     let items = vec![Item::Point(center), Item::Object(line)];
                     self.drawing.constrain(source, "on", items, None);
                     return Some(());
@@ -656,131 +625,6 @@ fn kind_name(kind: i64) -> String {
 fn constraint_name(index: usize, node: Node) -> String {
     let given = node.attribute("Name").filter(|name| !name.is_empty());
     given.map_or_else(|| format!("Constraint{}", index + 1), str::to_owned)
-}
-
-/// The first dimension that a constraint of the file is.
-fn dimension_of(imported: &Imported, source: usize) -> Option<usize> {
-    let mut all = imported.problem.dimensions();
-    all.find(|&index| imported.sources[index] == Some(source))
-}
-
-/// The dimensions that expressions of the sketch compute.
-fn tied(imported: &Imported, numbers: &Numbers) -> Vec<Tied> {
-    let of = |source| dimension_of(imported, source);
-    let tied = numbers.tied().filter_map(|(source, expression)| {
-        Some(Tied {
-            index: of(source)?,
-            expression: expression.to_owned(),
-            on: numbers
-                .named_in(expression)
-                .into_iter()
-                .filter_map(of)
-                .collect(),
-            fault: numbers.fault(source),
-        })
-    });
-    tied.collect()
-}
-
-/// The sign of a dimension's number in the file against the one in the problem, by what both were as the file was read.
-fn sign(said: f64, before: f64) -> f64 {
-    if said * before < 0.0 { -1.0 } else { 1.0 }
-}
-
-/// What follows by the file's expressions where these dimensions, and cells, are set, and all others are as in `now`.
-pub fn followed(imported: &Imported, places: &Places, now: &Problem, set: &[Setting]) -> Followed {
-    let (numbers, before) = (&places.computed, &imported.problem);
-    let is_set = |index: usize| set.iter().any(|setting| setting.index == index);
-    let is_tied = |index: usize| imported.tied.iter().any(|tied| tied.index == index);
-    let mut then = now.clone();
-    set.iter().for_each(|setting| setting.apply(&mut then));
-    let signed = |index: usize| {
-        let said = numbers.said(imported.sources[index]?)?;
-        let before = super::value(before, index);
-        Some((said, sign(said.value, before)))
-    };
-    let given = before.dimensions().filter(|&i| is_set(i) || !is_tied(i));
-    let given = given.filter_map(|index| {
-        let (said, sign) = signed(index)?;
-        let number = said.with(sign * super::value(&then, index));
-        Some((imported.sources[index]?, number, is_set(index)))
-    });
-    let mut evaluation = Evaluation::new(numbers, given);
-    let mut followed = Followed::default();
-    let is_external = |point: &Point| point.name.starts_with("external");
-    if numbers.set_cells().next().is_some() && before.points.iter().any(is_external) {
-        followed.warnings.push(
-            "geometry of other objects stays where it is here, and may follow from the cell when the file is recomputed there".to_owned(),
-        );
-    }
-    for (source, expression) in numbers.tied() {
-        let index = dimension_of(imported, source);
-        let name = match index {
-            Some(index) => before.dimension_name(index),
-            None => numbers.shown(numbers.entry(source)),
-        };
-        if index.is_some_and(is_set) {
-            followed.warnings.push(format!(
-                "{name} has the expression `{expression}` in the file, by which it is set anew when the file is recomputed there"
-            ));
-            continue;
-        }
-        let value = match numbers.fault(source) {
-            Some(why) => Some(Err(why)),
-            None => evaluation.follows(source),
-        };
-        let why = match (
-            value,
-            index.and_then(|index| Some((index, signed(index)?.1))),
-        ) {
-            (None, Some((index, sign))) => {
-                // Set by hand before, perhaps.
-                let here = super::value(now, index);
-                let by_it = evaluation.number(source);
-                let by_it = by_it.ok().and_then(|value| decimal(sign * value.value));
-                if let Some(by_it) = by_it.filter(|by_it| !computed::is_same(by_it.to_f64(), here))
-                {
-                    followed.warnings.push(format!(
-                        "{name} is {here} here, and {by_it} by its expression `{expression}`: what is computed from it takes that"
-                    ));
-                }
-                continue;
-            }
-            (None, None) => continue,
-            (Some(Ok(value)), Some((index, sign))) => {
-                if let Some(value) = decimal(sign * value.value) {
-                    let expression = expression.to_owned();
-                    followed.set.push(Follower {
-                        index,
-                        value,
-                        expression,
-                    });
-                    continue;
-                }
-                "the number is out of range".to_owned()
-            }
-            // Zero still, as a rule.
-            (Some(Ok(value)), None) if numbers.said(source) == Some(value) => continue,
-            (Some(Ok(value)), None) => {
-                format!("it would be {value}, and there is no number here that can be led there")
-            }
-            (Some(Err(why)), _) => why,
-        };
-        let stays = index.map_or(String::new(), |index| {
-            format!(" {}", super::value(now, index))
-        });
-        followed.warnings.push(format!(
-            "{name} has the expression `{expression}` in the file, which is not followed: {why}; it stays{stays} here, and is set anew when the file is recomputed there"
-        ));
-    }
-    let elsewhere = evaluation.elsewhere();
-    if !elsewhere.is_empty() {
-        followed.warnings.push(format!(
-            "{} follows too, and is not led here: it is set anew when the file is recomputed there",
-            elsewhere.join(", ")
-        ));
-    }
-    followed
 }
 
 pub fn read(bytes: &[u8], index: usize) -> Result<Imported, String> {
@@ -874,95 +718,7 @@ pub fn read(bytes: &[u8], index: usize) -> Result<Imported, String> {
         .drawing
         .finish(name, "a FreeCAD file", AllPlaces::FreeCad(places));
     if let AllPlaces::FreeCad(places) = &imported.places {
-        imported.tied = tied(&imported, &places.computed);
+        imported.tied = followed::tied(&imported, &places.computed);
     }
     Ok(imported)
-}
-
-pub fn rewrite(
-    imported: &Imported,
-    places: &Places,
-    bytes: &[u8],
-    problem: &Problem,
-    figure: &Figure,
-) -> Result<Vec<u8>, String> {
-    let mut text = document(bytes)?;
-    let mut changes: Vec<(Range<usize>, String)> = Vec::new();
-    for (content, range) in places.computed.set_cells() {
-        // What stands for itself in a text, and not in an attribute.
-        let content = content.replace('&', "&amp;").replace('"', "&quot;");
-        changes.push((
-            range.clone(),
-            content.replace('<', "&lt;").replace('\'', "&apos;"),
-        ));
-    }
-    for (range, number, before) in &places.numbers {
-        let now = match *number {
-            Number::Coordinate(point, axis) => figure.points[point][axis],
-            Number::Radius(object) => figure.radii[object],
-            Number::Apart(a, b) => {
-                let ([ax, ay, _], [bx, by, _]) = (figure.points[a], figure.points[b]);
-                (bx - ax).hypot(by - ay)
-            }
-            Number::Angle(center, point, turned, clockwise) => {
-                let ([ax, ay, _], [bx, by, _]) = (figure.points[center], figure.points[point]);
-                let angle = (by - ay).atan2(bx - ax);
-                let angle = if clockwise {
-                    turned - angle
-                } else {
-                    angle - turned
-                };
-                // As near as can be to what it was.
-                let turn = std::f64::consts::TAU;
-                angle + turn * ((before - angle) / turn).round()
-            }
-        };
-        // Numbers are compared as they are written.
-        if format!("{now:.16}") != format!("{before:.16}") {
-            changes.push((range.clone(), format!("{now:.16}")));
-        }
-    }
-    for changed in super::changed(imported, problem) {
-        let changed = changed?;
-        let range = places.values.get(changed.source).cloned();
-        let range = range.unwrap_or(0..0);
-        let said: f64 = text
-            .get(range.clone())
-            .and_then(|x| x.parse().ok())
-            .unwrap_or(f64::NAN);
-        let value = sign(said, changed.before) * changed.value;
-        let value = if changed.is_angle {
-            value.to_radians()
-        } else {
-            value
-        };
-        changes.push((range, format!("{value:.16}")));
-    }
-    changes.order_by_key(|change| std::cmp::Reverse(change.0.start));
-    for (range, value) in changes {
-        if text.get(range.clone()).is_none_or(str::is_empty) {
-            return Err("a number is missing: this is another file".to_owned());
-        }
-        text.replace_range(range, &value);
-    }
-    let failed = |error: zip::result::ZipError| error.to_string();
-    let mut from = archive(bytes)?;
-    let mut to = ZipWriter::new(Cursor::new(Vec::with_capacity(bytes.len())));
-    to.set_raw_comment(from.comment().to_vec().into_boxed_slice())
-        .map_err(failed)?;
-    for index in 0..from.len() {
-        let part = from.by_index_raw(index).map_err(failed)?;
-        if part.name().map_err(failed)? != DOCUMENT {
-            to.raw_copy_file(part).map_err(failed)?;
-            continue;
-        }
-        let mut options =
-            SimpleFileOptions::default().compression_method(CompressionMethod::Deflated);
-        if let Some(time) = part.last_modified() {
-            options = options.last_modified_time(time);
-        }
-        to.start_file(DOCUMENT, options).map_err(failed)?;
-        to.write_all(text.as_bytes()).map_err(|e| e.to_string())?;
-    }
-    Ok(to.finish().map_err(failed)?.into_inner())
 }

@@ -112,8 +112,6 @@ pub struct Tied {
     pub index: usize,
     /// The expression.
     pub expression: String,
-    /// The dimensions of the sketch that are named in it, by index.
-    pub on: Vec<usize>,
     /// Why the expression is not followed, where it is not.
     pub fault: Option<String>,
 }
@@ -312,20 +310,13 @@ impl Imported {
     }
 
     /// What is to be said where these dimensions are led, and what is tied to them is not: which of all these its own program computes.
+    #[cfg_attr(not(feature = "freecad"), allow(unused_variables))]
     pub fn computed(&self, led: &[usize]) -> Option<String> {
-        let mut all: Vec<usize> = led.to_vec();
-        // What is tied to what is tied, and so on.
-        while let Some(tied) = self
-            .tied
-            .iter()
-            .find(|tied| !all.contains(&tied.index) && tied.on.iter().any(|on| all.contains(on)))
-        {
-            all.push(tied.index);
-        }
-        let computed = self.tied.iter().filter(|tied| all.contains(&tied.index));
-        let names: Vec<String> = computed
-            .map(|tied| self.problem.dimension_name(tied.index))
-            .collect();
+        let names = match &self.places {
+            #[cfg(feature = "freecad")]
+            Places::FreeCad(places) => freecad::computed(self, places, led),
+            _ => Vec::new(),
+        };
         (!names.is_empty()).then(|| {
             format!(
                 "the file computes {} by expressions, which are not followed here: each is led as if it had none, or stays",

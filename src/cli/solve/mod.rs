@@ -209,10 +209,6 @@ impl Arguments {
                 "float mode proves no digits: leave out `--digits`, or `--mode float`",
             ),
             (
-                !is_one && self.many.is_wanted(),
-                "`--digits` is for one problem: name one file",
-            ),
-            (
                 !is_float && self.tolerance.is_some(),
                 "`--tolerance` is for float mode: add `--mode float`, or use `--tube-radius`",
             ),
@@ -224,25 +220,20 @@ impl Arguments {
                 is_float && self.no_extended,
                 "float mode has no extended precision: leave out `--no-extended`, or `--mode float`",
             ),
-            (
-                !is_one && self.cert.is_some(),
-                "`--cert` is for one problem: name one file",
-            ),
-            (
-                !is_one && self.take.is_wanted(),
-                "`--out` is for one problem: name one file",
-            ),
-            (
-                !is_one && !self.measured.is_empty(),
-                "`--measure` is for one problem: name one file",
-            ),
-            (
-                !is_one && self.pictures.files().next().is_some(),
-                "a page and pictures are of one problem: name one file",
-            ),
         ];
         if let Some((_, why)) = refused.into_iter().find(|(is_so, _)| *is_so) {
             return Err(why.to_owned());
+        }
+        let has_pictures = self.pictures.files().next().is_some();
+        let of_one = [
+            (self.many.is_wanted(), "`--digits` is for"),
+            (self.cert.is_some(), "`--cert` is for"),
+            (self.take.is_wanted(), "`--out` is for"),
+            (!self.measured.is_empty(), "`--measure` is for"),
+            (has_pictures, "a page and pictures are of"),
+        ];
+        if let Some((_, what)) = of_one.into_iter().find(|(is_so, _)| *is_so && !is_one) {
+            return Err(format!("{what} one problem: name one file"));
         }
         for file in &self.files {
             self.take.check(file)?;

@@ -3,11 +3,9 @@
 use super::{Arguments, Mode, interrupt};
 use crate::cli::output::Beside;
 use crate::cli::verify::check_written;
-use krawl::certificate::Writer;
 use krawl::problem::Problem;
 use krawl::report::ProgressLine;
-use krawl::track::{self, Control, First, Outcome, Progress, Signs, Status, Trace, Witness};
-use std::io::BufWriter;
+use krawl::track::{self, Control, First, Outcome, Progress, Signs, Status, Trace};
 
 /// Figures along a path for a page: smooth, and not too much to load.
 pub(super) fn samples_for(problem: &Problem) -> usize {
@@ -25,14 +23,13 @@ pub(super) fn follow(
     trace: Option<&mut Trace>,
 ) -> Result<(Outcome, bool, Option<u8>), String> {
     let options = arguments.options();
-    let mut witness = cert.map(|beside| Writer::new(BufWriter::new(beside.file()), problem));
+    let mut witness = cert.map(|beside| beside.certificate(problem));
     let line = ProgressLine::new(!arguments.quiet, which);
     let mut show = |now: Progress| line.show(now);
     let mut control = Control {
         progress: Some(&mut show),
-        witness: witness.as_mut().map(|writer| writer as &mut dyn Witness),
         trace,
-        ..interrupt::control()
+        ..interrupt::witnessed(witness.as_mut())
     };
     let outcome = match arguments.space {
         Some(_) => track::solve(problem, &options, &mut control),

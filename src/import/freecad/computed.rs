@@ -1,6 +1,6 @@
 //! The numbers of a document that expressions name or make: dimensions of all its sketches, and cells of its spreadsheets.
 
-use super::formula::{Found, Path, evaluate};
+use super::formula::{Found, Part, Path, evaluate};
 use super::quantity::Quantity;
 use super::{constraints, degrees, is_sketch, listed, number, objects, property, whole};
 use crate::import::drawing::decimal;
@@ -21,11 +21,12 @@ struct Object {
     entries: Range<usize>,
 }
 
-/// A dimension, by its name, or a cell, by its alias and its address.
+/// A dimension or a cell.
 #[derive(Debug, Clone)]
 struct Entry {
     object: usize,
-    names: [String; 2],
+    /// The name of a dimension; of a cell its alias, or its address where it has none.
+    name: Option<String>,
     content: Content,
     /// Of a cell: its text, and where that is in the file.
     cell: (String, Range<usize>),
@@ -49,31 +50,29 @@ pub struct Numbers {
     entries: Vec<Entry>,
     /// The entries of each object by their names, the first of each.
     named: HashMap<(usize, String), usize>,
-    /// Why each has no number in the file that can be used, if that is so.
+    /// Why each has no number in the file that can be used, if that is so; empty until that is found.
     faults: Vec<Option<String>>,
     /// The sketch that was read.
     own: usize,
 }
 
-/// The number and the unit that a cell's text is, if it is no more than these.
-fn plain(text: &str) -> Option<(f64, &str)> {
-    let text = text.strip_prefix('=').unwrap_or(text).trim();
-    let digits = text.trim_end_matches(|c: char| !c.is_ascii_digit());
-    let number = digits.parse().ok().filter(|x: &f64| x.is_finite())?;
-    Some((number, text[digits.len()..].trim()))
-}
-
-/// What a cell's text says.
-fn cell(text: &str) -> Content {
-    let with_unit = |(number, unit): (f64, &str)| match unit {
-        "" => Some(Quantity::plain(number)),
-        unit => Quantity::unit(unit).map(|unit| unit.with(number * unit.value)),
+/// What a cell's text says, and the unit behind its number.
+fn cell(text: &str) -> (Content, &str) {
+    let formula = text.strip_prefix('=');
+    let plain = formula.unwrap_or(text).trim();
+    let digits = plain.trim_end_matches(|c: char| !c.is_ascii_digit());
+    let number = digits.parse().ok().filter(|x: &f64| x.is_finite());
+    let name = plain[digits.len()..].trim();
+    let unit = match name {
+        "" => Some(Quantity::plain(1.0)),
+        name => Quantity::unit(name),
     };
-    match (plain(text).and_then(with_unit), text.strip_prefix('=')) {
-        (Some(number), _) => Content::Given(number),
-        (None, Some(text)) => Content::Computed(text.to_owned(), None),
-        (None, None) => Content::Other("is no number"),
-    }
+    let content = match (number, unit, formula) {
+        (Some(number), Some(unit), _) => Content::Given(unit.with(number * unit.value)),
+        (_, _, Some(formula)) => Content::Computed(formula.to_owned(), None),
+        _ => Content::Other("is no number"),
+    };
+    (content, name)
 }
 
 /// The number of a constraint.
@@ -94,33 +93,20 @@ impl Numbers {
     pub fn read(document: &Document, own: &str) -> Self {
         let mut numbers = Numbers::default();
         let all = objects(document);
-        for (object, &(node, name, kind)) in all.iter().enumerate() {
+        for &(node, name, kind) in &all {
             let begin = numbers.entries.len();
-            let of_sketch = constraints(node).into_iter().filter(|_| is_sketch(kind));
-            let of_sketch = of_sketch.map(|node| {
-                let names = [node.attribute("Name").unwrap_or(""), ""];
-                (names, dimension(node), (String::new(), 0..0))
-            });
-            let of_sheet = listed(node, "cells", "Cell").into_iter().map(|node| {
-                let names = ["alias", "address"].map(|key| node.attribute(key).unwrap_or(""));
-                let content = node.attribute_node("content");
-                let content = content.map_or((String::new(), 0..0), |content| {
-                    (content.value().to_owned(), content.range_value())
-                });
-                (names, cell(&content.0), content)
-            });
-            let entries = of_sketch
-                .chain(of_sheet)
-                .map(|(names, content, cell)| Entry {
-                    object,
-                    names: names.map(str::to_owned),
-                    content,
-                    cell,
-                    is_set: false,
-                });
-            numbers.entries.extend(entries);
+            let dimensions = constraints(node).into_iter().filter(|_| is_sketch(kind));
+            for node in dimensions {
+                numbers.add(node, &["Name"], dimension(node), Default::default());
+            }
+            for node in listed(node, "cells", "Cell") {
+                let text = node.attribute_node("content");
+                let text = text.map(|text| (text.value().to_owned(), text.range_value()));
+                let text = text.unwrap_or_default();
+                numbers.add(node, &["alias", "address"], cell(&text.0).0, text);
+            }
             if name == own {
-                numbers.own = object;
+                numbers.own = numbers.objects.len();
             }
             let label = listed(node, "Label", "String").into_iter().next();
             let label = label.and_then(|label| label.attribute("value"));
@@ -131,18 +117,12 @@ impl Numbers {
                 entries: begin..numbers.entries.len(),
             });
         }
-        for (entry, Entry { object, names, .. }) in numbers.entries.iter().enumerate() {
-            for name in names.iter().filter(|name| !name.is_empty()) {
-                let named = numbers.named.entry((*object, name.clone()));
-                named.or_insert(entry);
-            }
-        }
         for (object, (node, ..)) in all.iter().enumerate() {
             for node in listed(*node, "ExpressionEngine", "Expression") {
                 let [path, text] =
                     ["path", "expression"].map(|key| node.attribute(key).unwrap_or(""));
-                let found = Path::read(path).and_then(|path| numbers.find(object, &path));
-                if let Ok((entry, _)) = found
+                let path = Path::read(path).ok();
+                if let Some((entry, _)) = path.and_then(|path| numbers.find(object, &path))
                     && let Content::Given(said) = numbers.entries[entry].content
                 {
                     numbers.entries[entry].content = Content::Computed(text.to_owned(), Some(said));
@@ -150,57 +130,72 @@ impl Numbers {
             }
         }
         let mut in_file = Evaluation::new(&numbers, []);
-        in_file.cells();
         let all = 0..numbers.entries.len();
-        numbers.faults = all.map(|entry| in_file.value(entry).err()).collect();
+        numbers.faults = all.map(|entry| in_file.value(entry).0.err()).collect();
         numbers
     }
 
+    /// Adds an element of the next object, which is called what stands under these keys.
+    fn add(&mut self, node: Node, keys: &[&str], content: Content, cell: (String, Range<usize>)) {
+        let object = self.objects.len();
+        let names = keys.iter().filter_map(|key| node.attribute(*key));
+        let names = names.filter(|name| !name.is_empty());
+        for name in names.clone() {
+            let named = self.named.entry((object, name.to_owned()));
+            named.or_insert(self.entries.len());
+        }
+        self.entries.push(Entry {
+            object,
+            name: names.map(str::to_owned).next(),
+            content,
+            cell,
+            is_set: false,
+        });
+    }
+
     /// The entry that a name means in an expression of an object, and whether its number is meant without the unit.
-    fn find(&self, of: usize, path: &Path) -> Result<(usize, bool), String> {
+    fn find(&self, of: usize, path: &Path) -> Option<(usize, bool)> {
         let named = |name: &str| self.objects.iter().position(|o| o.name == name);
         let labelled = |label: &str| {
             let mut all = (0..self.objects.len()).filter(|&o| self.objects[o].label == label);
             all.next().filter(|_| all.next().is_none())
         };
-        let parts = &path.parts[..];
-        let (object, parts) = match *parts {
-            [label, ref rest @ ..] if path.is_label && !path.is_own => (labelled(label), rest),
-            [name, ref rest @ ..] if !path.is_own && !rest.is_empty() => {
+        let (object, parts) = match &path.parts[..] {
+            [Part::Label(label), rest @ ..] if !path.is_own => (labelled(label)?, rest),
+            [Part::Name(name), rest @ ..] if !path.is_own && !rest.is_empty() => {
                 match named(name).or_else(|| labelled(name)) {
-                    Some(other) => (Some(other), rest),
-                    None => (Some(of), parts),
+                    Some(other) => (other, rest),
+                    None => (of, &path.parts[..]),
                 }
             }
-            _ => (Some(of), parts),
+            all => (of, all),
         };
-        let is_sheet = object.is_some_and(|object| self.objects[object].is_sheet);
-        let parts = match (is_sheet, parts) {
-            (false, ["Constraints", rest @ ..]) => rest,
-            (true, all) => all,
-            _ => &[],
+        let own = &self.objects[object];
+        let (name, rest) = match parts {
+            [Part::Name("Constraints"), name, rest @ ..] if !own.is_sheet => (name, rest),
+            [name, rest @ ..] if own.is_sheet => (name, rest),
+            _ => return None,
         };
-        let found = object.and_then(|object| {
-            let name = parts.first()?.replace('$', "");
-            let entry = match Path::index(&name) {
-                Some(index) => self.objects[object].entries.clone().nth(index),
-                None => self.named.get(&(object, name)).copied(),
-            }?;
-            matches!(parts, [_] | [_, "Value"]).then(|| (entry, parts.len() > 1))
-        });
-        found.ok_or_else(|| {
-            let name = path.text;
-            format!("`{name}` is neither a dimension of a sketch nor a cell of a spreadsheet")
-        })
+        let entry = match name {
+            Part::Index(index) => own.entries.clone().nth(*index)?,
+            Part::Name(name) | Part::Label(name) => {
+                *self.named.get(&(object, name.replace('$', "")))?
+            }
+        };
+        match rest {
+            [] => Some((entry, false)),
+            [Part::Name("Value")] => Some((entry, true)),
+            _ => None,
+        }
     }
 
     /// What people call an entry.
     pub fn shown(&self, entry: usize) -> String {
-        let Entry { object, names, .. } = &self.entries[entry];
-        let Object { name, entries, .. } = &self.objects[*object];
-        let own = names.iter().find(|name| !name.is_empty()).cloned();
+        let object = self.entries[entry].object;
+        let Object { name, entries, .. } = &self.objects[object];
+        let own = self.entries[entry].name.clone();
         let own = own.unwrap_or_else(|| format!("Constraint{}", entry - entries.start + 1));
-        match *object == self.own {
+        match object == self.own {
             true => own,
             false => format!("{name}.{own}"),
         }
@@ -230,49 +225,31 @@ impl Numbers {
     }
 
     /// Why the expression of a constraint of the sketch is not used, if that is so.
-    pub fn fault(&self, source: usize) -> Option<String> {
-        self.faults[self.entry(source)].clone()
-    }
-
-    /// The constraints of the sketch that an expression of it names.
-    pub fn named_in(&self, expression: &str) -> Vec<usize> {
-        let own = self.objects[self.own].entries.clone();
-        let mut named = Vec::new();
-        let _ = evaluate(expression, &mut |path| {
-            let (entry, _) = self.find(self.own, path)?;
-            named.extend(own.clone().position(|other| other == entry));
-            Err(String::new())
-        });
-        named
+    pub fn fault(&self, source: usize) -> Option<&String> {
+        self.faults[self.entry(source)].as_ref()
     }
 
     /// Gives a cell another number, in the unit that it has. `None`: that is no name of a cell.
     pub fn set_cell(&mut self, name: &str, value: &str) -> Option<Result<(), String>> {
-        let path = Path::read(name).ok()?;
-        let (entry, _) = self.find(self.own, &path).ok()?;
+        let (entry, _) = self.find(self.own, &Path::read(name).ok()?)?;
         let entry = &mut self.entries[entry];
         if !self.objects[entry.object].is_sheet {
             return None;
         }
         let number = value.trim().parse().ok().filter(|x: &f64| x.is_finite());
-        let text = match (
-            number.and_then(decimal),
-            plain(&entry.cell.0),
-            &entry.content,
-        ) {
-            (_, _, Content::Computed(text, _)) => {
-                return Some(Err(format!(
-                    "{name} is computed, by `{text}`: set the cells in it"
-                )));
-            }
-            (Some(number), Some((_, unit)), _) => format!("={number} {unit}"),
-            (None, ..) => return Some(Err(format!("{name}: `{value}` is no number"))),
-            (_, None, _) => return Some(Err(format!("{name} is no number in the file"))),
+        let text = match (&entry.content, number.and_then(decimal)) {
+            (Content::Computed(text, _), _) => Err(format!(
+                "{name} is computed, by `{text}`: set the cells in it"
+            )),
+            (_, None) => Err(format!("{name}: `{value}` is no number")),
+            (Content::Other(_), _) => Err(format!("{name} is no number in the file")),
+            (_, Some(number)) => Ok(format!("={number} {}", cell(&entry.cell.0).1)),
         };
-        entry.content = cell(&text);
-        entry.cell.0 = text.trim_end().to_owned();
-        entry.is_set = true;
-        Some(Ok(()))
+        Some(text.map(|text| {
+            entry.content = cell(&text).0;
+            entry.cell.0 = text.trim_end().to_owned();
+            entry.is_set = true;
+        }))
     }
 
     /// The cells that were set: their text, and where it is in the file.
@@ -290,12 +267,10 @@ pub fn is_same(by_it: f64, has: f64) -> bool {
 /// What numbers come to where some are set.
 pub struct Evaluation<'a> {
     numbers: &'a Numbers,
-    /// What is known, by entry, and whether something new is in it.
-    known: HashMap<usize, (Found, bool)>,
+    /// What each entry comes to, once that is known, and whether something new is in it.
+    known: Vec<Option<(Found, bool)>>,
     /// What is being computed, each from the next one.
     way: Vec<usize>,
-    /// Whether something new was used.
-    is_new: bool,
 }
 
 impl<'a> Evaluation<'a> {
@@ -304,116 +279,96 @@ impl<'a> Evaluation<'a> {
         numbers: &'a Numbers,
         set: impl IntoIterator<Item = (usize, Quantity, bool)>,
     ) -> Self {
-        let known = set.into_iter();
-        let known =
-            known.map(|(source, number, is_new)| (numbers.entry(source), (Ok(number), is_new)));
-        Evaluation {
+        let mut evaluation = Evaluation {
             numbers,
-            known: known.collect(),
+            known: vec![None; numbers.entries.len()],
             way: Vec::new(),
-            is_new: false,
+        };
+        for (source, number, is_new) in set {
+            evaluation.known[numbers.entry(source)] = Some((Ok(number), is_new));
         }
+        // Cells in the order of the file, in which columns go down as a rule: most of what each names is known then.
+        let sheets = numbers.objects.iter().filter(|o| o.is_sheet);
+        for entry in sheets.flat_map(|sheet| sheet.entries.clone()) {
+            let _ = evaluation.value(entry);
+        }
+        evaluation
     }
 
     /// The dimensions of other sketches that follow from what is new, by name.
     pub fn elsewhere(&mut self) -> Vec<String> {
         let numbers = self.numbers;
-        let mut names = Vec::new();
-        for (
-            entry,
-            Entry {
-                object, content, ..
-            },
-        ) in numbers.entries.iter().enumerate()
-        {
-            let is_elsewhere = *object != numbers.own && !numbers.objects[*object].is_sheet;
-            if is_elsewhere && matches!(content, Content::Computed(..)) {
-                self.is_new = false;
-                let _ = self.value(entry);
-                names.extend(self.is_new.then(|| numbers.shown(entry)));
-            }
-        }
-        names
+        let all = numbers.entries.iter().enumerate();
+        let computed = all.filter(|(_, entry)| {
+            let is_elsewhere =
+                entry.object != numbers.own && !numbers.objects[entry.object].is_sheet;
+            is_elsewhere && matches!(entry.content, Content::Computed(..))
+        });
+        let follow = computed.filter(|(entry, _)| self.value(*entry).1);
+        follow.map(|(entry, _)| numbers.shown(entry)).collect()
     }
 
-    /// The number of a constraint of the sketch.
-    pub fn number(&mut self, source: usize) -> Found {
+    /// The number of a constraint of the sketch, and whether it follows from what is new.
+    pub fn number(&mut self, source: usize) -> (Found, bool) {
         self.value(self.numbers.entry(source))
     }
 
-    /// The number of a constraint of the sketch that follows from what is new; `None`: nothing of that is in it.
-    pub fn follows(&mut self, source: usize) -> Option<Found> {
-        self.cells();
-        self.is_new = false;
-        let value = self.value(self.numbers.entry(source));
-        self.is_new.then_some(value)
-    }
-
-    /// Computes all cells in the order of the file, in which columns go down as a rule: most of what each names is known then.
-    fn cells(&mut self) {
-        let sheets = self.numbers.objects.iter().filter(|o| o.is_sheet);
-        for entry in sheets.flat_map(|sheet| sheet.entries.clone()) {
-            let _ = self.value(entry);
-        }
-    }
-
-    fn value(&mut self, entry: usize) -> Found {
-        if let Some((found, is_new)) = self.known.get(&entry) {
-            self.is_new |= is_new;
-            return found.clone();
+    fn value(&mut self, entry: usize) -> (Found, bool) {
+        if let Some(known) = &self.known[entry] {
+            return known.clone();
         }
         if let Some(at) = self.way.iter().position(|&other| other == entry) {
             let round = self.way[at..].iter().chain([&entry]);
             let names: Vec<String> = round.map(|&entry| self.numbers.shown(entry)).collect();
-            return Err(format!(
-                "it goes round in a circle, {}",
-                names.join(" from ")
-            ));
+            let names = names.join(" from ");
+            return (Err(format!("it goes round in a circle, {names}")), false);
         }
         if self.way.len() > MOST {
-            return Err(format!(
-                "more than {MOST} numbers are computed from one another"
-            ));
+            let why = format!("more than {MOST} numbers are computed from one another");
+            return (Err(why), false);
         }
-        let before = std::mem::replace(&mut self.is_new, self.numbers.entries[entry].is_set);
         self.way.push(entry);
-        let value = self.compute(entry);
+        let mut is_new = self.numbers.entries[entry].is_set;
+        let found = self.compute(entry, &mut is_new);
         self.way.pop();
-        self.known.insert(entry, (value.clone(), self.is_new));
-        self.is_new |= before;
-        value
+        self.known[entry].insert((found, is_new)).clone()
     }
 
-    fn compute(&mut self, entry: usize) -> Found {
+    fn compute(&mut self, entry: usize, is_new: &mut bool) -> Found {
         let numbers = self.numbers;
-        let fault = numbers.faults.get(entry).cloned().flatten();
-        let Entry {
-            object, content, ..
-        } = &numbers.entries[entry];
-        let (text, said) = match content {
+        let shown = || numbers.shown(entry);
+        let of = &numbers.entries[entry];
+        let (text, said) = match &of.content {
             Content::Given(number) => return Ok(*number),
-            Content::Other(what) => return Err(format!("{} {what}", numbers.shown(entry))),
+            Content::Other(what) => return Err(format!("{} {what}", shown())),
             Content::Computed(text, said) => (text, said),
         };
         let value = evaluate(text, &mut |path| {
-            let (other, is_bare) = numbers.find(*object, path)?;
-            let value = self.value(other)?;
-            Ok(if is_bare {
-                Quantity::plain(value.value)
-            } else {
-                value
-            })
+            let found = numbers.find(of.object, path).ok_or_else(|| {
+                let name = path.text;
+                format!("`{name}` is neither a dimension of a sketch nor a cell of a spreadsheet")
+            });
+            let (other, is_bare) = found?;
+            let (value, is_other_new) = self.value(other);
+            *is_new |= is_other_new;
+            match is_bare {
+                true => value.map(|value| Quantity::plain(value.value)),
+                false => value,
+            }
         });
-        let value = fault.map_or(value, Err)?;
+        let fault = numbers.faults.get(entry);
+        if let Some(Some(why)) = fault {
+            return Err(why.clone());
+        }
         let Some(said) = *said else {
-            return Ok(value);
+            return value;
         };
-        let value = value.like(said)?;
-        match is_same(value.value, said.value) || !numbers.faults.is_empty() {
+        let value = value?.like(said)?;
+        match fault.is_some() || is_same(value.value, said.value) {
             true => Ok(value),
             false => Err(format!(
                 "by it {} is {value}, and the file has {said}",
-                numbers.shown(entry)
+                shown()
             )),
         }
     }

@@ -6,14 +6,9 @@ use super::quantity::{Quantity, call, operate};
 
 /// Parentheses in one another.
 const DEPTH: usize = 20;
-/// What a part of a path in brackets begins with.
-const INDEX: char = '[';
 
 /// A number, or why there is none.
 pub type Found = Result<Quantity, String>;
-
-/// What is read: an error, that it cannot be, or what it comes to.
-type Read = Result<Found, String>;
 
 /// A name, `Sketch.Constraints.width` or `B1`.
 pub struct Path<'a> {
@@ -21,9 +16,16 @@ pub struct Path<'a> {
     pub text: &'a str,
     /// Whether it begins with a point, so that it is of the object that has the expression.
     pub is_own: bool,
-    /// Whether the first part is a label, `<<width of all>>`.
-    pub is_label: bool,
-    pub parts: Vec<&'a str>,
+    pub parts: Vec<Part<'a>>,
+}
+
+/// A part of a path.
+pub enum Part<'a> {
+    Name(&'a str),
+    /// As in `<<width of all>>`.
+    Label(&'a str),
+    /// A number in brackets.
+    Index(usize),
 }
 
 impl<'a> Path<'a> {
@@ -34,11 +36,6 @@ impl<'a> Path<'a> {
         let path = reader.path()?;
         reader.end().map(|()| path)
     }
-
-    /// The number in brackets that a part is.
-    pub fn index(part: &str) -> Option<usize> {
-        part.strip_prefix(INDEX)?.parse().ok()
-    }
 }
 
 /// What an expression comes to, where names have these numbers. It asks for all names.
@@ -46,13 +43,15 @@ pub fn evaluate(text: &str, named: &mut dyn FnMut(&Path) -> Found) -> Found {
     let mut reader = Reader::new(text, named);
     let value = reader.sum()?;
     reader.end()?;
-    value
+    reader.fault.map_or(Ok(value), Err)
 }
 
 /// What is left of a text, and how deep in it this is.
 struct Reader<'a, 'n> {
     rest: &'a str,
     depth: usize,
+    /// The first reason why there is no value, though the text can be read.
+    fault: Option<String>,
     named: &'n mut dyn FnMut(&Path) -> Found,
 }
 
@@ -69,8 +68,17 @@ impl<'a, 'n> Reader<'a, 'n> {
         Reader {
             rest: text.trim(),
             depth: 0,
+            fault: None,
             named,
         }
+    }
+
+    /// A number that goes on as no number where there is none, so that the rest is read, too.
+    fn noted(&mut self, found: Found) -> Quantity {
+        found.unwrap_or_else(|why| {
+            self.fault.get_or_insert(why);
+            Quantity::plain(f64::NAN)
+        })
     }
 
     fn wrong<T>(&self, what: &str) -> Result<T, String> {
@@ -118,19 +126,19 @@ impl<'a, 'n> Reader<'a, 'n> {
     }
 
     /// Operands with operators between them, from the left.
-    fn chain(&mut self, operators: &[&'static str], operand: fn(&mut Self) -> Read) -> Read {
+    fn chain(&mut self, operators: &[&'static str], operand: fn(&mut Self) -> Found) -> Found {
         let mut value = operand(self)?;
         while let Some(operator) = self.one_of(operators) {
             let by = match operator == "/" && Quantity::unit(self.word()).is_some() {
                 true => self.unit()?,
                 false => operand(self)?,
             };
-            value = value.and_then(|a| operate(operator, a, by?));
+            value = self.noted(operate(operator, value, by));
         }
         Ok(value)
     }
 
-    fn sum(&mut self) -> Read {
+    fn sum(&mut self) -> Found {
         self.depth += 1;
         if self.depth > DEPTH {
             return self.wrong("too much is in one another");
@@ -140,39 +148,40 @@ impl<'a, 'n> Reader<'a, 'n> {
         Ok(value)
     }
 
-    fn product(&mut self) -> Read {
+    fn product(&mut self) -> Found {
         self.chain(&["*", "/"], Self::power)
     }
 
-    fn power(&mut self) -> Read {
+    fn power(&mut self) -> Found {
         self.chain(&["^"], Self::signed)
     }
 
-    fn signed(&mut self) -> Read {
+    fn signed(&mut self) -> Found {
         let mut is_negative = false;
         while let Some(sign) = self.one_of(&["-", "+"]) {
             is_negative ^= sign == "-";
         }
         let value = self.atom()?;
-        Ok(value.map(|value| if is_negative { value.negative() } else { value }))
+        Ok(if is_negative { value.negative() } else { value })
     }
 
-    fn atom(&mut self) -> Read {
+    fn atom(&mut self) -> Found {
         let word = self.word();
         let value = if self.one_of(&["("]).is_some() {
             let inner = self.sum()?;
             self.expect(")")?;
             inner
         } else if begins_with_digit(self.rest.strip_prefix('.').unwrap_or(self.rest)) {
-            Ok(Quantity::plain(self.number()?))
+            Quantity::plain(self.number()?)
         } else if let Some(constant) = Quantity::constant(word) {
             self.skip(word.len());
-            Ok(constant)
+            constant
         } else if !word.is_empty() && self.rest[word.len()..].starts_with('(') {
             return self.function(word);
         } else {
             let path = self.path()?;
-            return Ok((self.named)(&path));
+            let found = (self.named)(&path);
+            return Ok(self.noted(found));
         };
         match self
             .rest
@@ -180,7 +189,7 @@ impl<'a, 'n> Reader<'a, 'n> {
         {
             true => {
                 let unit = self.unit()?;
-                Ok(value.and_then(|value| operate("*", value, unit?)))
+                Ok(self.noted(operate("*", value, unit)))
             }
             false => Ok(value),
         }
@@ -189,8 +198,8 @@ impl<'a, 'n> Reader<'a, 'n> {
     fn number(&mut self) -> Result<f64, String> {
         let rest = self.rest;
         let digits = |from: usize| {
-            let end = rest[from..].find(|c: char| !c.is_ascii_digit());
-            end.map_or(rest.len(), |end| from + end)
+            let others = rest[from..].trim_start_matches(|c: char| c.is_ascii_digit());
+            rest.len() - others.len()
         };
         let mut end = digits(0);
         if rest[end..].starts_with('.') {
@@ -199,11 +208,9 @@ impl<'a, 'n> Reader<'a, 'n> {
         if rest[end..].starts_with(['e', 'E']) {
             let sign = usize::from(rest[end + 1..].starts_with(['+', '-']));
             let exponent = end + 1 + sign;
-            end = if digits(exponent) > exponent {
-                digits(exponent)
-            } else {
-                end
-            };
+            if begins_with_digit(&rest[exponent..]) {
+                end = digits(exponent);
+            }
         }
         match rest[..end].parse() {
             Ok(number) if !rest[..end].ends_with('.') => {
@@ -215,7 +222,7 @@ impl<'a, 'n> Reader<'a, 'n> {
     }
 
     /// A unit, to a power or not.
-    fn unit(&mut self) -> Read {
+    fn unit(&mut self) -> Found {
         let word = match self.rest.chars().next() {
             Some(c) if !is_letter(c) => &self.rest[..c.len_utf8()],
             _ => self.word(),
@@ -225,25 +232,21 @@ impl<'a, 'n> Reader<'a, 'n> {
         };
         self.skip(word.len());
         if self.one_of(&["^"]).is_none() {
-            return Ok(Ok(unit));
+            return Ok(unit);
         }
-        let sign = if self.one_of(&["-"]).is_some() {
-            -1.0
-        } else {
-            1.0
-        };
-        let power = Quantity::plain(sign * self.number()?);
-        Ok(operate("^", unit, power))
+        let is_negative = self.one_of(&["-"]).is_some();
+        let power = Quantity::plain(self.number()?);
+        let power = if is_negative { power.negative() } else { power };
+        Ok(self.noted(operate("^", unit, power)))
     }
 
-    fn function(&mut self, name: &str) -> Read {
+    fn function(&mut self, name: &str) -> Found {
         self.skip(name.len() + 1);
         let mut of = Vec::new();
         loop {
             of.push(self.sum()?);
             if self.one_of(&[")"]).is_some() {
-                let of: Result<Vec<_>, _> = of.into_iter().collect();
-                return Ok(of.and_then(|of| call(name, &of)));
+                return Ok(self.noted(call(name, &of)));
             }
             if self.rest.strip_prefix(',').is_some_and(begins_with_digit) {
                 return self.wrong("a comma before a digit is read as a point");
@@ -257,7 +260,6 @@ impl<'a, 'n> Reader<'a, 'n> {
     fn path(&mut self) -> Result<Path<'a>, String> {
         let begin = self.rest;
         let is_own = self.one_of(&["."]).is_some();
-        let is_label = self.rest.starts_with("<<");
         let mut parts = vec![self.part()?];
         while let Some(next) = self.one_of(&[".", "["]) {
             if next == "." {
@@ -265,11 +267,10 @@ impl<'a, 'n> Reader<'a, 'n> {
                 continue;
             }
             let digits = self.word();
-            let part = &begin[begin.len() - self.rest.len() - 1..][..digits.len() + 1];
-            if Path::index(part).is_none() {
+            let Ok(index) = digits.parse() else {
                 return self.wrong("a number is expected in brackets");
-            }
-            parts.push(part);
+            };
+            parts.push(Part::Index(index));
             self.skip(digits.len());
             self.expect("]")?;
         }
@@ -279,18 +280,17 @@ impl<'a, 'n> Reader<'a, 'n> {
         Ok(Path {
             text: begin[..begin.len() - self.rest.len()].trim_end(),
             is_own,
-            is_label,
             parts,
         })
     }
 
-    fn part(&mut self) -> Result<&'a str, String> {
+    fn part(&mut self) -> Result<Part<'a>, String> {
         if let Some(inner) = self.rest.strip_prefix("<<") {
             let inner = inner.split_once(">>").map(|(inner, _)| inner);
             return match inner.filter(|inner| !inner.contains('\\')) {
                 Some(inner) => {
                     self.skip(inner.len() + 4);
-                    Ok(inner)
+                    Ok(Part::Label(inner))
                 }
                 None => self.wrong("there is a label that is not read"),
             };
@@ -298,7 +298,7 @@ impl<'a, 'n> Reader<'a, 'n> {
         let word = self.word();
         match word.is_empty() || begins_with_digit(word) {
             true => self.wrong("a number or a name is expected"),
-            false => Ok(self.skip(word.len())),
+            false => Ok(Part::Name(self.skip(word.len()))),
         }
     }
 }

@@ -15,50 +15,43 @@ pub struct Quantity {
     unit: [i32; 2],
 }
 
-/// The units that are read, as long as one millimetre or degree is 1. FreeCAD's others are of none of both.
-const LENGTHS: [(&str, f64); 14] = [
-    ("nm", 1e-6),
-    ("um", 1e-3),
-    ("µm", 1e-3),
-    ("mm", 1.0),
-    ("cm", 10.0),
-    ("dm", 100.0),
-    ("m", 1e3),
-    ("km", 1e6),
-    ("in", 25.4),
-    ("\"", 25.4),
-    ("ft", 304.8),
-    ("'", 304.8),
-    ("thou", 0.0254),
-    ("yd", 914.4),
-];
-const ANGLES: [(&str, f64); 4] = [
-    ("deg", 1.0),
-    ("°", 1.0),
-    ("rad", 180.0 / std::f64::consts::PI),
-    ("gon", 0.9),
+/// The units that are read. FreeCAD's others are neither of lengths nor of angles.
+const UNITS: [(&str, Quantity); 18] = [
+    ("nm", Quantity::length(1e-6)),
+    ("um", Quantity::length(1e-3)),
+    ("µm", Quantity::length(1e-3)),
+    ("mm", Quantity::length(1.0)),
+    ("cm", Quantity::length(10.0)),
+    ("dm", Quantity::length(100.0)),
+    ("m", Quantity::length(1e3)),
+    ("km", Quantity::length(1e6)),
+    ("in", Quantity::length(25.4)),
+    ("\"", Quantity::length(25.4)),
+    ("ft", Quantity::length(304.8)),
+    ("'", Quantity::length(304.8)),
+    ("thou", Quantity::length(0.0254)),
+    ("yd", Quantity::length(914.4)),
+    ("deg", Quantity::angle(1.0)),
+    ("°", Quantity::angle(1.0)),
+    ("rad", Quantity::angle(180.0 / std::f64::consts::PI)),
+    ("gon", Quantity::angle(0.9)),
 ];
 
 impl Quantity {
-    pub fn plain(value: f64) -> Self {
-        Quantity {
-            value,
-            unit: [0, 0],
-        }
+    const fn new(value: f64, unit: [i32; 2]) -> Self {
+        Quantity { value, unit }
     }
 
-    pub fn length(value: f64) -> Self {
-        Quantity {
-            value,
-            unit: [1, 0],
-        }
+    pub const fn plain(value: f64) -> Self {
+        Self::new(value, [0, 0])
     }
 
-    pub fn angle(value: f64) -> Self {
-        Quantity {
-            value,
-            unit: [0, 1],
-        }
+    pub const fn length(value: f64) -> Self {
+        Self::new(value, [1, 0])
+    }
+
+    pub const fn angle(value: f64) -> Self {
+        Self::new(value, [0, 1])
     }
 
     /// The number of that name.
@@ -72,9 +65,8 @@ impl Quantity {
 
     /// The unit of that name.
     pub fn unit(name: &str) -> Option<Self> {
-        let of = |all: &[(&str, f64)]| all.iter().find(|(unit, _)| *unit == name).map(|u| u.1);
-        let length = of(&LENGTHS).map(Self::length);
-        length.or_else(|| of(&ANGLES).map(Self::angle))
+        let unit = UNITS.iter().find(|(unit, _)| *unit == name);
+        unit.map(|unit| unit.1)
     }
 
     /// Another number with the same unit.
@@ -119,10 +111,10 @@ impl Quantity {
         let whole = (by.value.fract() == 0.0 && by.value.abs() < 10.0).then_some(by.value as i32);
         let whole = if self.is_plain() { Some(0) } else { whole };
         match whole.filter(|_| by.is_plain()) {
-            Some(whole) => Ok(Quantity {
-                value: self.value.powf(by.value),
-                unit: self.unit.map(|power| power.saturating_mul(whole)),
-            }),
+            Some(whole) => {
+                let unit = self.unit.map(|power| power.saturating_mul(whole));
+                Ok(Self::new(self.value.powf(by.value), unit))
+            }
             None => Err(format!("{self} cannot be taken to the power of {by}")),
         }
     }
@@ -158,17 +150,12 @@ pub fn operate(operator: &str, a: Quantity, b: Quantity) -> Result<Quantity, Str
     if operator == "/" && b.value == 0.0 {
         return Err("it divides by zero".to_owned());
     }
+    let units = |of: fn(i32, i32) -> i32| [0, 1].map(|k| of(a.unit[k], b.unit[k]));
     let made = match operator {
         "+" => same(a, b).map(|()| a.with(a.value + b.value))?,
         "-" => same(a, b).map(|()| a.with(a.value - b.value))?,
-        "*" => Quantity {
-            value: a.value * b.value,
-            unit: [0, 1].map(|k| a.unit[k].saturating_add(b.unit[k])),
-        },
-        "/" => Quantity {
-            value: a.value / b.value,
-            unit: [0, 1].map(|k| a.unit[k].saturating_sub(b.unit[k])),
-        },
+        "*" => Quantity::new(a.value * b.value, units(i32::saturating_add)),
+        "/" => Quantity::new(a.value / b.value, units(i32::saturating_sub)),
         "^" => a.power(b)?,
         _ => return Err(format!("`{operator}` is no operator of numbers")),
     };
@@ -207,10 +194,9 @@ pub fn call(name: &str, of: &[Quantity]) -> Result<Quantity, String> {
     };
     let made = match name {
         "abs" => Ok(a.with(a.value.abs())),
-        "sqrt" if a.unit[0] % 2 == 0 && !a.is_angle() => Ok(Quantity {
-            value: a.value.sqrt(),
-            unit: [a.unit[0] / 2, 0],
-        }),
+        "sqrt" if a.unit[0] % 2 == 0 && !a.is_angle() => {
+            Ok(Quantity::new(a.value.sqrt(), [a.unit[0] / 2, 0]))
+        }
         "sqrt" => Err(format!("{a} has no root with a unit")),
         "sin" => of_angle(f64::sin),
         "cos" => of_angle(f64::cos),
