@@ -53,6 +53,11 @@ impl<'a> Results<'a> {
         self.json.is_some()
     }
 
+    /// Whether results are written, as JSON or as pictures.
+    pub fn are_written(&self) -> bool {
+        self.has_json() || !self.pictures.is_empty()
+    }
+
     /// Whether people are told, or programs.
     pub fn are_read(&self) -> bool {
         self.is_told() || self.has_json()
@@ -65,7 +70,7 @@ impl<'a> Results<'a> {
 
     /// Writes a result, which is made where it is wanted, as JSON and as pictures.
     pub fn write(&mut self, result: impl FnOnce() -> Document) -> Result<(), String> {
-        if self.json.is_none() && self.pictures.is_empty() {
+        if !self.are_written() {
             return Ok(());
         }
         let result = result();

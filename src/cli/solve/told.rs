@@ -277,8 +277,10 @@ impl Told<'_> {
             tested,
             ..Run::new(problem, &options, &outcome)
         };
-        let mut document = Document::solve(&run);
-        self.results.write_page(&document)?;
+        let mut document = self.results.are_written().then(|| Document::solve(&run));
+        if let Some(document) = &document {
+            self.results.write_page(document)?;
+        }
         self.results.print(|| {
             let part = tested.map_or_else(String::new, |tested| part_in_words(tested) + "\n");
             let summary = || to_summary(problem, &outcome, tested);
@@ -331,7 +333,7 @@ impl Told<'_> {
         if let Some(among) = among.filter(|_| !arguments.summary) {
             self.results.print(|| among_in_words(among));
         }
-        if self.results.has_json() {
+        if let Some(document) = document.as_mut().filter(|_| self.results.has_json()) {
             let figures = outcome.solutions.iter().map(placed);
             document.beside = More {
                 of_all: among.map(|among| among.all),
