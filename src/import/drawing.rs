@@ -130,11 +130,13 @@ impl Drawing {
     }
 
     /// What is of another object stays where it is.
+    #[cfg(feature = "freecad")]
     pub fn fix(&mut self, item: Item) {
         self.held.push((item, false));
     }
 
     /// An outline that there is no kind for, which stays as it is.
+    #[cfg(feature = "freecad")]
     pub fn keep_outline(&mut self, kind: &str, name: String) {
         *self.kept.kinds.entry(kind.to_owned()).or_default() += 1;
         self.kept.what.push(name);

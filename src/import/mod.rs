@@ -312,7 +312,7 @@ impl Imported {
     /// What is to be said where these dimensions are led, and what is tied to them is not: which of all these its own program computes.
     #[cfg_attr(not(feature = "freecad"), allow(unused_variables))]
     pub fn computed(&self, led: &[usize]) -> Option<String> {
-        let names = match &self.places {
+        let names: Vec<String> = match &self.places {
             #[cfg(feature = "freecad")]
             Places::FreeCad(places) => freecad::computed(self, places, led),
             _ => Vec::new(),
