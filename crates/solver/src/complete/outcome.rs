@@ -24,9 +24,9 @@ use std::time::{Duration, Instant};
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Status {
     /// They are all.
-    #[default]
     Complete,
     /// There may be more in the parts that are undecided.
+    #[default]
     Partial,
     /// There may be more in the parts that are undecided, and through some of these goes a curve of
     /// solutions, as far as floats see.
@@ -371,6 +371,7 @@ impl Complete {
     /// No solution, for a reason that needs no search.
     pub(super) fn empty(problem: &Problem, reason: String, begin: Instant) -> Self {
         Complete {
+            status: Status::Complete,
             count: Some(0),
             reference: problem.homotopy.reference.clone(),
             reason: Some(reason),
