@@ -22,7 +22,7 @@ use elsewhere::Shapes;
 pub use followed::{computed, followed};
 pub use rewrite::rewrite;
 use roxmltree::{Document, Node};
-use shape::{Outline, Seen};
+use shape::{Outline, Seen, counter_clockwise};
 use std::collections::{HashMap, HashSet};
 use std::io::{Cursor, Read};
 use std::ops::Range;
@@ -76,6 +76,15 @@ fn objects<'a>(document: &'a Document<'a>) -> Vec<(Node<'a, 'a>, &'a str, Option
             Some((object, name, kinds.get(name).copied()))
         })
         .collect()
+}
+
+/// What a constraint names: edges, each with the position of a point of it, or 0 for all of it.
+fn sides(constraint: Node) -> [(i64, i64); 3] {
+    let side = |name: &str| {
+        let position = format!("{name}Pos");
+        (whole(constraint, name), whole(constraint, &position))
+    };
+    ["First", "Second", "Third"].map(side)
 }
 
 /// The sketch objects, with their names.
@@ -210,13 +219,8 @@ fn outline(node: Node) -> Option<Outline> {
                 let [x, y] = center;
                 [x + radius * angle.cos(), y + radius * angle.sin()]
             };
-            let [first, last] = ["StartAngle", "EndAngle"].map(end);
             // FreeCAD's sketches have the start of an arc where it begins counter-clockwise.
-            let ends = if clockwise {
-                [last, first]
-            } else {
-                [first, last]
-            };
+            let ends = counter_clockwise(["StartAngle", "EndAngle"].map(end), clockwise);
             Outline::Arc { center, ends }
         }
         _ => return None,
@@ -305,7 +309,7 @@ impl Reader {
                     .map(|(which, at)| self.drawing.point(format!("{name}.{which}"), at));
                 if let Some(node) = own {
                     let (turned, clockwise) = turn_of(node);
-                    let [first, last] = if clockwise { [b, a] } else { [a, b] };
+                    let [first, last] = counter_clockwise([a, b], clockwise);
                     let angle = |end| Number::Angle(center, end, turned, clockwise);
                     self.place(node, "Radius", Number::Apart(center, a));
                     self.place(node, "StartAngle", angle(first));
@@ -410,8 +414,7 @@ impl Reader {
     /// Puts a constraint down; `None` where there is no kind for it.
     fn constraint(&mut self, index: usize, node: Node) -> Option<()> {
         let source = Some(index);
-        let side = |name: &str| (whole(node, name), whole(node, &format!("{name}Pos")));
-        let (first, second, third) = (side("First"), side("Second"), side("Third"));
+        let [first, second, third] = sides(node);
         let value: f64 = number(node, "Value");
         let has_second = second.0 != NONE;
         let points = |points: [usize; 2]| points.each(Item::Point).to_vec();
@@ -653,7 +656,7 @@ pub fn read(bytes: &[u8], index: usize) -> Result<Imported, String> {
     let named: HashSet<i64> = constraints(object)
         .into_iter()
         .filter(|c| is_driving(*c))
-        .flat_map(|c| ["First", "Second", "Third"].map(|side| whole(c, side)))
+        .flat_map(|c| sides(c).map(|(id, _)| id))
         .collect();
     let kept = geometry(object, "ExternalGeo").into_iter().enumerate();
     for (at, geometry) in kept.skip(2) {
@@ -662,11 +665,13 @@ pub fn read(bytes: &[u8], index: usize) -> Result<Imported, String> {
             reader.read(id, geometry);
         }
     }
-    if property(object, "ExternalGeo").is_none() && named.iter().any(|&id| id <= -3 && id != NONE) {
-        let shapes = Shapes::new(&document, bytes);
+    if property(object, "ExternalGeo").is_none()
+        && named.iter().any(|&id| id <= -3 && id != NONE)
+        && let Some(shapes) = Shapes::new(&document, bytes, object)
+    {
         let mut id = -3;
         for link in listed(object, "ExternalGeometry", "Link") {
-            match shapes.seen(object, link) {
+            match shapes.seen(link) {
                 Some(Seen::Nothing) => continue,
                 Some(Seen::Outline(outline)) if named.contains(&id) => {
                     reader.draw(id, outline, None)
@@ -689,8 +694,7 @@ pub fn read(bytes: &[u8], index: usize) -> Result<Imported, String> {
         }
         reader.drawing.name(index, constraint_name(index, node));
         if reader.constraint(index, node).is_none() {
-            let sides = ["First", "Second", "Third"];
-            let sides = sides.map(|side| (whole(node, side), whole(node, &format!("{side}Pos"))));
+            let sides = sides(node);
             let is_elsewhere =
                 |(id, _): &(i64, i64)| *id <= -3 && *id != NONE && !reader.edges.contains_key(id);
             let kind = kind_name(whole(node, "Type"));

@@ -8,8 +8,9 @@ use std::cell::RefCell;
 use std::collections::HashMap;
 use std::io::Read as _;
 
-/// The shapes of a document's objects, each read when it is first asked for.
+/// The shapes of a document's objects in the plane of a sketch, each read when it is first asked for.
 pub struct Shapes<'a> {
+    plane: Plane,
     bytes: &'a [u8],
     /// The files of shapes, by the names of objects.
     files: HashMap<&'a str, &'a str>,
@@ -17,29 +18,28 @@ pub struct Shapes<'a> {
 }
 
 impl<'a> Shapes<'a> {
-    /// Those of a document in these bytes.
-    pub fn new(document: &'a Document<'a>, bytes: &'a [u8]) -> Self {
+    /// Those of a document in these bytes. `None`: the plane of the sketch is not known.
+    pub fn new(document: &'a Document<'a>, bytes: &'a [u8], sketch: Node) -> Option<Self> {
         let files = objects(document).into_iter();
         let files = files.filter_map(|(object, name, _)| {
             let shape = property(object, "Shape")?;
             let part = shape.children().find(|n| n.has_tag_name("Part"))?;
             Some((name, part.attribute("file")?))
         });
-        Shapes {
+        Some(Shapes {
+            plane: plane(sketch)?,
             bytes,
             files: files.collect(),
             read: RefCell::default(),
-        }
+        })
     }
 
-    /// What FreeCAD draws in the plane of a sketch for a link of it. `None`: that is not known.
-    pub fn seen(&self, sketch: Node, link: Node) -> Option<Seen> {
+    /// What FreeCAD draws for a link of the sketch. `None`: that is not known.
+    pub fn seen(&self, link: Node) -> Option<Seen> {
         let file = *self.files.get(link.attribute("obj")?)?;
         let mut read = self.read.borrow_mut();
         let shape = read.entry(file).or_insert_with(|| self.shape(file));
-        shape
-            .as_ref()?
-            .seen(link.attribute("sub")?, &plane(sketch)?)
+        shape.as_ref()?.seen(link.attribute("sub")?, &self.plane)
     }
 
     fn shape(&self, file: &str) -> Option<Shape> {

@@ -42,7 +42,9 @@ enum Edge {
         radius: f64,
         ends: [Vector; 2],
     },
+    /// On another curve.
     Other,
+    /// Without a curve.
     Nothing,
 }
 
@@ -62,6 +64,14 @@ pub enum Outline {
     },
 }
 
+/// Two ends in the order in which they are met counter-clockwise.
+pub fn counter_clockwise<T>([first, last]: [T; 2], is_clockwise: bool) -> [T; 2] {
+    match is_clockwise {
+        true => [last, first],
+        false => [first, last],
+    }
+}
+
 /// What FreeCAD draws for a part of a shape.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Seen {
@@ -69,6 +79,7 @@ pub enum Seen {
     Nothing,
     /// An outline that is no line, circle, arc or point.
     Other,
+    /// A line, circle, arc or point.
     Outline(Outline),
 }
 
@@ -172,7 +183,8 @@ impl Motion {
         Motion(axes, back.map(|x| -x))
     }
 
-    fn then(&self, first: &Motion) -> Motion {
+    /// This one after another.
+    fn after(&self, first: &Motion) -> Motion {
         Motion(
             first.0.map(|axis| self.of_direction(axis)),
             self.of(first.1),
@@ -218,7 +230,6 @@ impl Locations {
             match tokens.next::<u8>()? {
                 1 => {
                     for row in 0..3 {
-                        given.0.iter_mut().for_each(|axis| axis[row] = f64::NAN);
                         for axis in &mut given.0 {
                             axis[row] = tokens.next()?;
                         }
@@ -267,7 +278,7 @@ impl Locations {
             let one = self.given[which];
             let one = if power < 0 { one.inverse() } else { one };
             for _ in 0..power.unsigned_abs() {
-                out = out.then(&one);
+                out = out.after(&one);
             }
         }
         out
@@ -475,20 +486,16 @@ impl Shape {
                 center,
                 axis,
                 radius,
-                ends: [first, last],
+                ends,
             } => {
                 let center = plane.seen(center);
                 // The square, as there.
-                if distance(first, last).powi(2) < CONFUSION {
+                if distance(ends[0], ends[1]).powi(2) < CONFUSION {
                     return Some(Seen::Outline(Outline::Circle { center, radius }));
                 }
                 let is_clockwise = dot(axis, plane.axes[2]) < 0.0;
-                let ends = if is_clockwise {
-                    [last, first]
-                } else {
-                    [first, last]
-                };
                 let ends = ends.map(|end| plane.seen(end));
+                let ends = counter_clockwise(ends, is_clockwise);
                 Seen::Outline(Outline::Arc { center, ends })
             }
         })
