@@ -8,7 +8,7 @@ use crate::cli::{CLOSED, LIMIT, OPEN, STOPPED};
 use crate::places::Each as _;
 use krawl::blocks::{Figures, First as Nearest};
 use krawl::problem::Problem;
-use krawl::report::document::Verb;
+use krawl::report::document::Measured;
 use krawl::report::{
     BlockRuns, Document, Listed, figures_to_summary, figures_to_table, first_in_words, to_summary,
 };
@@ -18,11 +18,13 @@ use std::path::Path;
 /// The figures of a sketch, and what is told of them.
 pub(super) struct Found {
     pub figures: Figures,
+    /// Those that are told.
+    listed: Listed,
+    /// What was measured of them.
+    measured: Vec<Measured>,
     /// The number of the one that `--first` means, if it is there.
     first: Option<u64>,
     pub text: String,
-    /// For JSON.
-    pub document: Document,
     /// The exit code.
     pub code: u8,
 }
@@ -83,6 +85,15 @@ pub(super) fn follow_blocks(
     Ok((runs, code))
 }
 
+impl Found {
+    /// The result that is written.
+    pub fn document(&self) -> Document {
+        let mut document = Document::figures(&self.figures, self.listed);
+        document.beside.measures.clone_from(&self.measured);
+        document
+    }
+}
+
 impl Arguments {
     /// The figures of a sketch in its own frame, with `--first` the nearest one with its senses.
     pub(super) fn by_blocks(&self, problem: &Problem) -> Result<Found, String> {
@@ -111,7 +122,7 @@ impl Arguments {
             true => figures_to_summary(&figures),
             false => figures_to_table(&figures, listed),
         };
-        let mut document = Document::figures(&figures, listed);
+        let mut measured = Vec::new();
         let measures = self.measured.of(problem)?;
         if !measures.is_empty() {
             let numbers = match first {
@@ -126,16 +137,17 @@ impl Arguments {
                     .map(|(points, objects)| (&points[..], &objects[..]))
             };
             text += &measures.to_table("", boxes());
-            document.beside.measures = measures.told(boxes());
+            measured = measures.told(boxes());
         }
         if self.many.is_wanted() {
             text += "\nFigures found block by block are not told to more digits: `krawl all --digits` tells them.\n";
         }
         Ok(Found {
             figures,
+            listed,
+            measured,
             first,
             text,
-            document,
             code,
         })
     }
@@ -178,9 +190,7 @@ impl Arguments {
             return None;
         }
         let found = self.by_blocks(problem).ok()?;
-        let is_complete =
-            |own: &Verb| matches!(own, Verb::Figures(own) if own.status == "complete");
-        if vanishes && !is_complete(&found.document.own) {
+        if vanishes && !found.figures.is_complete() {
             return None;
         }
         let certificate = match self.cert {

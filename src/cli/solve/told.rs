@@ -69,13 +69,16 @@ impl Told<'_> {
     /// Tells a result that is whole.
     fn tell(
         &mut self,
-        result: &Document,
+        result: impl FnOnce() -> Document,
         text: impl FnOnce() -> String,
         code: u8,
     ) -> Result<(), String> {
-        self.results.write_page(result)?;
-        if self.results.has_json() {
-            self.lines += &(result.to_json() + "\n");
+        if self.results.are_written() {
+            let result = result();
+            self.results.write_page(&result)?;
+            if self.results.has_json() {
+                self.lines += &(result.to_json() + "\n");
+            }
         }
         self.results.print(text);
         self.worst = worse(self.worst, code);
@@ -85,7 +88,7 @@ impl Told<'_> {
     /// A problem that is solved block by block from the start.
     fn by_blocks(&mut self, problem: &Problem, file: &Path, gap: &str) -> Result<(), String> {
         let arguments = self.arguments;
-        let mut found = match arguments.by_blocks(problem) {
+        let found = match arguments.by_blocks(problem) {
             Ok(found) => found,
             // What came of other files is not lost.
             Err(error) => {
@@ -104,9 +107,13 @@ impl Told<'_> {
             true => arguments.alone(problem),
             false => Vec::new(),
         };
-        found.document.beside.alone = alone.iter().map(AloneEnding::new).collect();
+        let document = || {
+            let mut document = found.document();
+            document.beside.alone = alone.iter().map(AloneEnding::new).collect();
+            document
+        };
         let text = || format!("{gap}{}{}", found.text, alone_in_words(&alone));
-        self.tell(&found.document, text, found.code)
+        self.tell(document, text, found.code)
     }
 
     /// A problem that stopped, or whose path says nothing, block by block after all. False: it does not fall apart.
@@ -133,8 +140,11 @@ impl Told<'_> {
         {
             self.results
                 .note(arguments.take_of(&found, (problem, file)));
-            let mut whole = Solve::of(&Run::new(problem, options, outcome));
-            whole.by_blocks = Some(Box::new(found.document));
+            let document = || {
+                let mut whole = Solve::of(&Run::new(problem, options, outcome));
+                whole.by_blocks = Some(Box::new(found.document()));
+                whole.document(problem)
+            };
             let text = || match arguments.cert {
                 // What the certificate is about.
                 Some(_) => format!(
@@ -144,7 +154,7 @@ impl Told<'_> {
                 ),
                 None => format!("{gap}{}", found.text),
             };
-            self.tell(&whole.document(problem), text, found.code)?;
+            self.tell(document, text, found.code)?;
             return Ok(true);
         }
         // What is asked for may be a certificate of the whole.
@@ -163,12 +173,12 @@ impl Told<'_> {
             options,
             runs: &runs,
         };
-        let document = all.document(outcome, arguments.all);
+        let document = || all.document(outcome, arguments.all);
         let text = || {
             let hints = hints(problem, outcome, &name);
             format!("{gap}{}{hints}", arguments.shown_blocks(&all))
         };
-        self.tell(&document, text, code)?;
+        self.tell(document, text, code)?;
         if arguments.take.is_wanted()
             || !arguments.measured.is_empty()
             || arguments.many.is_wanted()

@@ -14,10 +14,10 @@ keys! {
         /// `certified`.
         mode: String = "certified".into(),
         /// `complete`, `combined` or `stopped`.
-        status: String = match (figures.doubt(), figures.has_paths()) {
-            (Some(_), _) => "stopped".into(),
-            (None, false) if figures.meets_all() => "complete".into(),
-            (None, _) => "combined".into(),
+        status: String = match figures.doubt() {
+            Some(_) => "stopped".into(),
+            None if figures.is_complete() => "complete".into(),
+            None => "combined".into(),
         },
         /// Why there may be more.
         reason: Option<String> = figures.doubt(),

@@ -309,6 +309,11 @@ impl Figures {
         self.account.meets_all()
     }
 
+    /// Whether it is proved that there are no others.
+    pub fn is_complete(&self) -> bool {
+        self.doubt().is_none() && !self.has_paths() && self.meets_all()
+    }
+
     /// Whether there are constraints whose words leave more than one case open (docs/using/problem-files.md): sides of lines and
     /// tangency from outside or inside, of which the sketch's is taken; angles, of which the size counts; and directions
     /// that agree, as of tangents at a shared end, which may go on or come back.
