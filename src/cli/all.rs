@@ -14,7 +14,7 @@ use krawl::constraint::Symmetry;
 use krawl::problem::counted;
 use krawl::report::{
     Document, ProgressLine, complete_to_table, conformers_to_table, conformers_told,
-    digits_to_table,
+    digits_to_table, made_in_words,
 };
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -210,7 +210,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
         .of(&problem, &result.reference, &result.solutions);
     results.write(|| {
         let conformers = conformers.as_ref();
-        let mut document = Document::all(&problem, &result);
+        let mut document = Document::all(&problem, &result, &asked.made);
         document.beside.measures = measures.told(figures());
         document.beside.conformers = conformers.map(|(of, all)| conformers_told(&problem, of, all));
         document.beside.digits = arguments.many.told(&problem, &many);
@@ -223,10 +223,9 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
             text += &conformers_to_table(&problem, skeleton, conformers);
         }
         text += &digits_to_table(&problem, 1, &many);
-        let made = asked.made.clause();
+        let made = made_in_words(&asked.made);
         if !made.is_empty() {
-            text +=
-                &format!("\nThe sketch was searched with as many equations as unknowns, {made}.\n");
+            text += &format!("\n{made}\n");
         }
         text + &checked.text
     });

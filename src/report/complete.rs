@@ -223,6 +223,14 @@ fn span(seconds: f64) -> String {
     }
 }
 
+/// What a sketch was made of to be searched, a sentence; empty where it was searched as it is.
+pub fn made_in_words(made: &Account) -> String {
+    match made.clause() {
+        clause if clause.is_empty() => clause,
+        clause => format!("The sketch was searched with as many equations as unknowns, {clause}."),
+    }
+}
+
 /// What was found, in words that claim no more than was proved.
 pub(super) fn verdict(problem: &Problem, result: &Complete) -> String {
     let signed = result.signed.unwrap_or_default();
@@ -241,10 +249,6 @@ pub(super) fn verdict(problem: &Problem, result: &Complete) -> String {
     let mut words = without_sides(problem, result);
     if result.count != Some(0) {
         words += &both_ways_in_words(&result.both_ways);
-    }
-    let kept = Account::of(problem, 0).kept_in_words();
-    if !kept.is_empty() {
-        struck += &format!(" That is {kept}.");
     }
     words + &struck + &supposed(problem)
 }

@@ -178,6 +178,25 @@ fn results_of_other_verbs_meet_their_schemas() {
         assert_eq!(complaints, [""; 0], "{arguments:?}");
         assert_eq!(document["status"], status, "{arguments:?}");
     }
+    // What is left as it is in the file is said beside the claim.
+    let kept = "tests/data/freecad/kept.FCStd";
+    let claims: [(&str, &str, &[&str]); 4] = [
+        ("complete", "verdict", &["all", kept]),
+        ("figures", "verdict", &["solve", kept]),
+        ("edit", "words", &["edit", kept, "--set", "w=50"]),
+        (
+            "tolerance",
+            "words",
+            &["tolerance", kept, "--default", "0.1"],
+        ),
+    ];
+    for (kind, words, arguments) in claims {
+        let (document, complaints) = written(kind, arguments);
+        assert_eq!(complaints, [""; 0], "{arguments:?}");
+        assert_eq!(document["account"]["left_as_is"][0], "e5", "{arguments:?}");
+        let words = document[words].as_str().unwrap();
+        assert!(words.contains("left as they are because of"), "{words}");
+    }
     let octahedron = "problems/octahedron.toml";
     let template = "problems/octahedron.krawl-template";
     let (complex, complaints) =

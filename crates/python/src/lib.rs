@@ -169,7 +169,7 @@ fn complete_set(
     if let (Some(path), Some(cover)) = (&certificate, &result.cover) {
         fs::write(path, cover).map_err(|error| unwritten(path, &error))?;
     }
-    Ok(Document::all(&problem, &result).to_json())
+    Ok(Document::all(&problem, &result, &Default::default()).to_json())
 }
 
 /// A linkage followed all the way round: JSON as of `krawl motion --json`.

@@ -4,21 +4,21 @@ use super::{
     At, Bounds, Document, Drawing, Objects, Points, Signs, Verb, all, all_names, bounds, names,
     points,
 };
-use crate::blocks::LeftOut;
+use crate::blocks::{Account, LeftOut};
 use crate::complete::{self, Choice, Complete, Constructed, Searched, Tested};
 use crate::problem::Problem;
-use crate::report::complete::{figure, verdict, why};
+use crate::report::complete::{figure, made_in_words, verdict, why};
 use crate::track::Solution;
 
 keys! {
     /// All figures.
-    All(problem: &Problem, result: &Complete) {
+    All(problem: &Problem, result: &Complete, made: &Account) {
         /// `complete`, `partial` or `flexible`.
         status: String = result.status.name().into(),
         /// Why there is none, or what stands in the way of a claim.
         reason: Option<String> = result.reason.clone(),
         /// What is proved.
-        verdict: String = verdict(problem, result),
+        verdict: String = format!("{} {}", verdict(problem, result), made_in_words(made)).trim_end().into(),
         /// How they were searched.
         method: String = result.method.name().into(),
         /// How many there are.
@@ -40,6 +40,8 @@ keys! {
         /// The order in which the plan places points.
         plan: Vec<String> = names(problem, &result.plan),
     } or nothing {
+        /// Of what that is proved, where the sketch was not searched as it is.
+        account: Option<Account> = made.clause().chars().next().map(|_| made.clone()),
         /// The parts of a problem that falls apart.
         parts: Vec<Part> = all(&result.parts, Part::new),
         /// Of what the figures are combinations.
@@ -103,9 +105,9 @@ keys! {
 }
 
 impl Document {
-    /// All figures of a problem, or what is known of them.
-    pub fn all(problem: &Problem, result: &Complete) -> Document {
+    /// All figures of a problem, or what is known of them. `made`: of what that is proved where the problem was made of a sketch.
+    pub fn all(problem: &Problem, result: &Complete, made: &Account) -> Document {
         let drawing = Drawing::seen_from("all", problem, &result.reference);
-        Document::of(drawing, Verb::All(All::new(problem, result)))
+        Document::of(drawing, Verb::All(All::new(problem, result, made)))
     }
 }

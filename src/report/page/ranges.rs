@@ -21,7 +21,7 @@ pub(super) fn page(reader: &Reader, limits: &Limits) -> Result<Page, ShowError> 
         .iter()
         .map(|(_, range)| range.account.kept_in_words());
     if let Some(kept) = kept.max().filter(|kept| !kept.is_empty()) {
-        page.verdict += &format!(" That is {kept}.");
+        page.verdict += &format!(" This holds {kept}.");
     }
     let mut ranges: Vec<&(String, RangeOf)> = limits.ranges.0.iter().collect();
     // In the order of the file.
