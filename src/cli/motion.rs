@@ -5,6 +5,7 @@ use super::output::{self, Refusal};
 use super::pictures::Pictures;
 use super::results::Results;
 use super::{CLOSED, OPEN, STOPPED, input, interrupt};
+use krawl::edit::Setting;
 use krawl::motion::Motion;
 use krawl::report::{Document, motion_in_words, motion_to_csv, motion_to_table};
 use krawl::track::Options;
@@ -63,6 +64,12 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
     let file = &arguments.source.file;
     let named = [arguments.json.as_deref(), arguments.csv.as_deref()];
     let mut results = Results::open([file], named, &arguments.pictures, arguments.quiet)?;
+    let free = arguments.free.iter();
+    let free = free.filter_map(|name| Setting::find(problem, name).ok());
+    let free: Vec<usize> = free.collect();
+    loaded
+        .check_numbers(&free)
+        .map_err(|error| format!("{}: {error}", file.display()))?;
     let mut control = interrupt::control();
     let motion = Motion::of(
         problem,

@@ -163,5 +163,7 @@ fn settings(
         settings.push(setting.map_err(|error| followed.in_error(&error))?);
     }
     Setting::check(problem, &settings).map_err(|error| error.to_string())?;
+    let led: Vec<usize> = settings.iter().map(|setting| setting.index).collect();
+    loaded.check_numbers(&led)?;
     Ok((settings, followed))
 }

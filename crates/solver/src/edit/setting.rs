@@ -38,7 +38,7 @@ pub enum SettingError {
     },
     /// A constraint of another program's file of which there is no kind here.
     #[error(
-        "`{0}` is a constraint that krawl has no kind for: what it is of stays as it is in the file"
+        "`{0}` is a constraint that krawl has no kind for: what it names stays as it is in the file"
     )]
     Kept(String),
     /// A constraint that has no number.

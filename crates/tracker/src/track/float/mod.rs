@@ -20,7 +20,7 @@ pub enum Tried {
     Closed,
     /// It has not gone on, for this reason.
     Failed(&'static str),
-    /// What it is followed with was changed; the same step is to be tried again.
+    /// What it is followed with was changed; the same step is to be tried again. Whoever says so counts how often: the loop does not.
     Again,
 }
 
