@@ -61,7 +61,7 @@
 //! Other processors need no flags.
 //!
 //! Features, all on unless `default-features = false`: `cli` for the program (command line, progress, pictures with axes,
-//! CSV), `freecad` to read and write FreeCAD's files, `explore` for [`explore`] and its database.
+//! CSV), `freecad` to read and write FreeCAD's files, `explore` for [`explore`].
 //!
 //! # The modules
 //!
@@ -87,6 +87,7 @@
 //! - [`system`]: the equations H(X, t) = 0, and where figures lie
 //! - `plan`: construction plans with driving parameters
 //! - [`track`]: the trackers, certified and float, in full and in reduced space
+//! - `journal`: files of lines that one process appends to
 //! - [`blocks`]: how the equations of a sketch fall apart, and its figures block by block
 //! - `remarks`: what can be told of a problem before any path is followed
 //! - [`edit`]: one dimension changed, the same figure kept, by proof; the limits of dimensions
@@ -124,7 +125,7 @@ pub use krawl_solver::{elimination, linalg, plan, remarks};
 
 use krawl_solver::{debug_in_words, order, places, sets};
 #[cfg(feature = "explore")]
-use krawl_solver::{hexadecimal, random};
+use krawl_solver::{journal, random};
 
 // In the library, so that what both need of generic code is made once.
 #[cfg(feature = "cli")]

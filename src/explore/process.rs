@@ -63,21 +63,20 @@ impl Explorer {
     /// Opens or makes the store in a folder. The process begins with the problem's sketch, or goes on.
     pub fn open(problem: &Problem, folder: &std::path::Path) -> Result<Self, ExploreError> {
         let base = servable(problem)?;
-        let store = Store::open(folder, &problem.to_toml())?;
-        Self::with(problem.clone(), base, store)
+        let (store, contents) = Store::open(folder, &problem.to_toml())?;
+        Ok(Self::with(problem.clone(), base, store, contents))
     }
 
     /// Opens the store in a folder that has one.
     pub fn existing(folder: &std::path::Path) -> Result<Self, ExploreError> {
-        let (store, text) = Store::existing(folder)?;
+        let (store, text, contents) = Store::existing(folder)?;
         let problem = Problem::parse(&text, "the store's problem")
             .map_err(|e| ExploreError::Problem(e.to_string()))?;
         let base = servable(&problem)?;
-        Self::with(problem, base, store)
+        Ok(Self::with(problem, base, store, contents))
     }
 
-    fn with(problem: Problem, base: Homotopy, store: Store) -> Result<Self, ExploreError> {
-        let contents = store.load()?;
+    fn with(problem: Problem, base: Homotopy, store: Store, contents: Contents) -> Self {
         let plans = Construction::some(&problem, PLANS);
         let mut explorer = Explorer {
             queue: contents.queue(),
@@ -97,7 +96,7 @@ impl Explorer {
                 explorer.enter_lengths(id);
             }
         }
-        Ok(explorer)
+        explorer
     }
 
     /// The problem.
@@ -311,10 +310,9 @@ impl Explorer {
         job(&self.problem, &way, sketch, candidates)
     }
 
-    fn commit(&self, change: &mut Change) -> Result<(), StoreError> {
-        self.store.commit(change, &self.contents.state)?;
-        *change = Change::default();
-        Ok(())
+    fn commit(&mut self, change: &mut Change) -> Result<(), StoreError> {
+        self.store
+            .commit(std::mem::take(change), &self.contents.state)
     }
 
     /// Follows sketches until nothing new comes, or the budget ends.

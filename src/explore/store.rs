@@ -1,24 +1,31 @@
-//! What is kept between runs: an embedded database (redb), one file in the store's folder.
+//! What is kept between runs: a [journal](crate::journal) in the store's folder.
 //!
-//! Every change is one transaction, on disk before it counts: a process that is killed at any moment leaves the
-//! store as it was after the last one. The file is locked while a process has it open.
+//! Every change is one line, on disk before it counts: a process that is killed at any moment leaves the store as it was
+//! after the last one. The file is locked while a process has it open.
 
 use super::record::{Class, PathRecord, Sketch};
-use redb::{Database, DatabaseError, ReadableDatabase, ReadableTable, TableDefinition};
-use serde::Serialize;
-use serde::de::DeserializeOwned;
+use crate::journal::{Journal, Kind, Whole};
+use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
+use std::io::{Error, ErrorKind};
 use std::path::{Path, PathBuf};
 
-/// The format of what is in it.
-const VERSION: u64 = 1;
+const KIND: Kind = Kind {
+    name: "store of krawl explore",
+    version: 2,
+};
 
-const META: TableDefinition<&str, &str> = TableDefinition::new("meta");
-const SKETCHES: TableDefinition<u64, &[u8]> = TableDefinition::new("sketches");
-const PATHS: TableDefinition<u64, &[u8]> = TableDefinition::new("paths");
-const CLASSES: TableDefinition<u64, &[u8]> = TableDefinition::new("classes");
-/// Sketches that are in work units, with the unit's number.
-const OUT: TableDefinition<u64, u64> = TableDefinition::new("out");
+#[derive(Debug, Serialize, Deserialize)]
+struct About {
+    /// The text of the problem's file.
+    problem: String,
+}
+
+#[derive(Debug, Serialize, Deserialize)]
+struct Line {
+    change: Change,
+    state: State,
+}
 
 /// Why a store cannot be used.
 #[derive(Debug, thiserror::Error)]
@@ -34,13 +41,10 @@ pub enum StoreError {
         "{0}: this store is about another problem ({1}), or the problem file was changed since; name another folder"
     )]
     OtherProblem(PathBuf, String),
-    /// It was made by another version of this program.
-    #[error("{0}: this store has format {1}, and this krawl reads format {version}", version = VERSION)]
-    OtherVersion(PathBuf, String),
     /// There is none.
     #[error("{0}: there is no store here; `krawl explore FILE --store {0}` makes one")]
     Missing(PathBuf),
-    /// The file system or the database.
+    /// The file system, or what is in the file.
     #[error("{0}: {1}")]
     Failed(PathBuf, String),
 }
@@ -68,10 +72,27 @@ impl Contents {
             .filter(|id| !self.paths.contains_key(id) && !self.out.contains_key(id))
             .collect()
     }
+
+    fn take(&mut self, Line { change, state }: Line) {
+        self.sketches.extend(
+            change
+                .sketches
+                .into_iter()
+                .map(|sketch| (sketch.id, sketch)),
+        );
+        self.classes.extend(change.classes);
+        self.out.extend(change.out);
+        self.out.retain(|id, _| !change.back.contains(id));
+        for path in change.paths {
+            self.out.remove(&path.id);
+            self.paths.insert(path.id, path);
+        }
+        self.state = state;
+    }
 }
 
 /// Where the process is, beside what it found.
-#[derive(Debug, Clone, PartialEq, Default, serde::Serialize, serde::Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct State {
     /// Ways opened so far: 0 before the first sketch.
     pub ways: usize,
@@ -89,8 +110,8 @@ pub struct State {
     pub seconds: f64,
 }
 
-/// What one transaction changes.
-#[derive(Debug, Default)]
+/// What one line of the journal changes.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Change {
     /// New sketches.
     pub sketches: Vec<Sketch>,
@@ -107,52 +128,63 @@ pub struct Change {
 impl Change {
     /// Whether there is nothing to do.
     pub fn is_empty(&self) -> bool {
-        self.sketches.is_empty()
-            && self.paths.is_empty()
-            && self.classes.is_empty()
-            && self.out.is_empty()
-            && self.back.is_empty()
+        *self == Change::default()
     }
 }
 
 /// An open store.
 #[derive(Debug)]
 pub struct Store {
-    database: Database,
+    journal: Journal,
     folder: PathBuf,
 }
 
 impl Store {
-    /// Opens the store in a folder for a problem, given as the text of its file, or makes it.
-    pub fn open(folder: &Path, problem: &str) -> Result<Self, StoreError> {
-        std::fs::create_dir_all(folder)
-            .map_err(|e| StoreError::Failed(folder.to_owned(), e.to_string()))?;
-        let store = Self::at(folder, Database::create(file(folder)))?;
-        store.check(problem)?;
-        Ok(store)
+    /// Opens the store in a folder for a problem, given as the text of its file, or makes it; and what is in it.
+    pub fn open(folder: &Path, problem: &str) -> Result<(Self, Contents), StoreError> {
+        std::fs::create_dir_all(folder).map_err(|e| failed(folder, e))?;
+        let (mut store, whole) = Self::at(folder)?;
+        let Some(whole) = whole else {
+            let problem = problem.to_owned();
+            let begun = store.journal.begin(&KIND, &About { problem });
+            begun.map_err(|e| failed(folder, e))?;
+            return Ok((store, Contents::default()));
+        };
+        let known = &whole.about.problem;
+        if known != problem {
+            let first = known.lines().next().unwrap_or_default().to_owned();
+            return Err(StoreError::OtherProblem(folder.to_owned(), first));
+        }
+        Ok((store, contents(whole)))
     }
 
-    /// Opens the store in a folder that has one, and hands out its problem.
-    pub fn existing(folder: &Path) -> Result<(Self, String), StoreError> {
+    /// Opens the store in a folder that has one, and hands out its problem and what is in it.
+    pub fn existing(folder: &Path) -> Result<(Self, String, Contents), StoreError> {
+        let missing = || StoreError::Missing(folder.to_owned());
         if !file(folder).is_file() {
-            return Err(StoreError::Missing(folder.to_owned()));
+            return Err(missing());
         }
-        let store = Self::at(folder, Database::open(file(folder)))?;
-        let problem = store.meta("problem")?;
-        let problem = problem.ok_or_else(|| StoreError::Missing(folder.to_owned()))?;
-        store.check(&problem)?;
-        Ok((store, problem))
+        let (store, whole) = Self::at(folder)?;
+        let whole = whole.ok_or_else(missing)?;
+        Ok((store, whole.about.problem.clone(), contents(whole)))
     }
 
-    fn at(folder: &Path, opened: Result<Database, DatabaseError>) -> Result<Self, StoreError> {
-        match opened {
-            Ok(database) => Ok(Store {
-                database,
-                folder: folder.to_owned(),
-            }),
-            Err(DatabaseError::DatabaseAlreadyOpen) => Err(StoreError::Busy(folder.to_owned())),
-            Err(error) => Err(StoreError::Failed(folder.to_owned(), error.to_string())),
+    fn at(folder: &Path) -> Result<(Self, Option<Whole<About, Line>>), StoreError> {
+        if folder.join("explore.redb").exists() {
+            let what = "krawl 0.1.0 before December 2026 wrote this store; name another folder";
+            return Err(StoreError::Failed(folder.to_owned(), what.to_owned()));
         }
+        let opened = KIND.open::<About, Line>(&file(folder));
+        let (journal, whole) = opened.map_err(|error| match error.kind() {
+            ErrorKind::WouldBlock => StoreError::Busy(folder.to_owned()),
+            _ => failed(folder, error),
+        })?;
+        if let Some(line) = whole.as_ref().and_then(|whole| whole.damaged) {
+            let what = format!("line {line} of {} is damaged", file(folder).display());
+            return Err(StoreError::Failed(folder.to_owned(), what));
+        }
+        let folder = folder.to_owned();
+        Ok((Store { journal, folder }, whole))
     }
 
     /// The folder.
@@ -160,131 +192,27 @@ impl Store {
         &self.folder
     }
 
-    fn failed(&self, error: impl std::fmt::Display) -> StoreError {
-        StoreError::Failed(self.folder.clone(), error.to_string())
-    }
-
-    fn meta(&self, key: &str) -> Result<Option<String>, StoreError> {
-        let read = self.database.begin_read().map_err(|e| self.failed(e))?;
-        let table = match read.open_table(META) {
-            Ok(table) => table,
-            Err(redb::TableError::TableDoesNotExist(_)) => return Ok(None),
-            Err(error) => return Err(self.failed(error)),
-        };
-        let value = table.get(key).map_err(|e| self.failed(e))?;
-        Ok(value.map(|value| value.value().to_owned()))
-    }
-
-    /// That it is about this problem, in this format; a new one becomes so.
-    fn check(&self, problem: &str) -> Result<(), StoreError> {
-        let Some(version) = self.meta("version")? else {
-            let write = self.database.begin_write().map_err(|e| self.failed(e))?;
-            {
-                let mut meta = write.open_table(META).map_err(|e| self.failed(e))?;
-                let version = VERSION.to_string();
-                for (key, value) in [("version", &*version), ("problem", problem)] {
-                    meta.insert(key, value).map_err(|e| self.failed(e))?;
-                }
-                write.open_table(SKETCHES).map_err(|e| self.failed(e))?;
-                write.open_table(PATHS).map_err(|e| self.failed(e))?;
-                write.open_table(CLASSES).map_err(|e| self.failed(e))?;
-                write.open_table(OUT).map_err(|e| self.failed(e))?;
-            }
-            return write.commit().map_err(|e| self.failed(e));
-        };
-        if version != VERSION.to_string() {
-            return Err(StoreError::OtherVersion(self.folder.clone(), version));
-        }
-        match self.meta("problem")? {
-            Some(known) if known == problem => Ok(()),
-            known => {
-                let known = known.unwrap_or_default();
-                let first = known.lines().next().unwrap_or_default().to_owned();
-                Err(StoreError::OtherProblem(self.folder.clone(), first))
-            }
-        }
-    }
-
-    /// Reads all of it.
-    pub fn load(&self) -> Result<Contents, StoreError> {
-        let read = self.database.begin_read().map_err(|e| self.failed(e))?;
-        let state = match self.meta("state")? {
-            Some(text) => serde_json::from_str(&text).map_err(|e| self.failed(e))?,
-            None => State::default(),
-        };
-        let mut contents = Contents {
-            state,
-            ..Contents::default()
-        };
-        let rows = |table| -> Result<Vec<(u64, Vec<u8>)>, StoreError> {
-            let table: redb::ReadOnlyTable<u64, &[u8]> =
-                read.open_table(table).map_err(|e| self.failed(e))?;
-            let rows = table.iter().map_err(|e| self.failed(e))?;
-            rows.map(|row| {
-                let (key, value) = row.map_err(|e| self.failed(e))?;
-                Ok((key.value(), value.value().to_vec()))
-            })
-            .collect()
-        };
-        for (id, bytes) in rows(SKETCHES)? {
-            contents.sketches.insert(id, self.read(&bytes)?);
-        }
-        for (id, bytes) in rows(PATHS)? {
-            contents.paths.insert(id, self.read(&bytes)?);
-        }
-        for (_, bytes) in rows(CLASSES)? {
-            contents.classes.push(self.read(&bytes)?);
-        }
-        let out = read.open_table(OUT).map_err(|e| self.failed(e))?;
-        for row in out.iter().map_err(|e| self.failed(e))? {
-            let (id, unit) = row.map_err(|e| self.failed(e))?;
-            contents.out.insert(id.value(), unit.value());
-        }
-        Ok(contents)
-    }
-
-    fn read<T: DeserializeOwned>(&self, bytes: &[u8]) -> Result<T, StoreError> {
-        serde_json::from_slice(bytes).map_err(|e| self.failed(format!("damaged: {e}")))
-    }
-
-    /// Writes a change, all of it or nothing. It is on disk when this returns.
-    pub fn commit(&self, change: &Change, state: &State) -> Result<(), StoreError> {
-        let write = self.database.begin_write().map_err(|e| self.failed(e))?;
-        {
-            let put = |table, entries: Vec<(u64, Vec<u8>)>| -> Result<(), StoreError> {
-                let mut table: redb::Table<u64, &[u8]> =
-                    write.open_table(table).map_err(|e| self.failed(e))?;
-                for (id, bytes) in entries {
-                    table.insert(id, &bytes[..]).map_err(|e| self.failed(e))?;
-                }
-                Ok(())
-            };
-            put(SKETCHES, bytes(&change.sketches, |s| s.id))?;
-            put(PATHS, bytes(&change.paths, |p| p.id))?;
-            put(CLASSES, bytes(&change.classes, |c| c.id))?;
-            let mut out = write.open_table(OUT).map_err(|e| self.failed(e))?;
-            for &(id, unit) in &change.out {
-                out.insert(id, unit).map_err(|e| self.failed(e))?;
-            }
-            let done = change.paths.iter().map(|path| path.id);
-            for id in done.chain(change.back.iter().copied()) {
-                out.remove(id).map_err(|e| self.failed(e))?;
-            }
-            let mut meta = write.open_table(META).map_err(|e| self.failed(e))?;
-            let text = serde_json::to_string(state).map_err(|e| self.failed(e))?;
-            meta.insert("state", &*text).map_err(|e| self.failed(e))?;
-        }
-        write.commit().map_err(|e| self.failed(e))
+    /// Writes a change. It is on disk when this returns.
+    pub fn commit(&mut self, change: Change, state: &State) -> Result<(), StoreError> {
+        let state = state.clone();
+        let put = self.journal.put(&Line { change, state });
+        let on_disk = put.and_then(|()| self.journal.sync());
+        on_disk.map_err(|e| failed(&self.folder, e))
     }
 }
 
-fn bytes<T: Serialize>(of: &[T], id: impl Fn(&T) -> u64) -> Vec<(u64, Vec<u8>)> {
-    let text = |x: &T| serde_json::to_vec(x).expect("records have a form in JSON");
-    of.iter().map(|x| (id(x), text(x))).collect()
+fn contents(whole: Whole<About, Line>) -> Contents {
+    let mut contents = Contents::default();
+    whole.lines.into_iter().for_each(|line| contents.take(line));
+    contents
+}
+
+fn failed(folder: &Path, error: Error) -> StoreError {
+    StoreError::Failed(folder.to_owned(), error.to_string())
 }
 
 fn file(folder: &Path) -> PathBuf {
-    folder.join("explore.redb")
+    folder.join("explored.krawl-store")
 }
 
 #[cfg(test)]
@@ -305,7 +233,7 @@ mod tests {
     #[test]
     fn keeps_what_was_committed_and_is_for_one_process_and_problem() {
         let folder = tempfile::tempdir().unwrap();
-        let store = Store::open(folder.path(), "name = \"one\"").unwrap();
+        let (mut store, _) = Store::open(folder.path(), "name = \"one\"").unwrap();
         let path = PathRecord {
             tubes: 3,
             seconds: 0.1,
@@ -321,7 +249,7 @@ mod tests {
             ways: 2,
             ..State::default()
         };
-        store.commit(&change, &state).unwrap();
+        store.commit(change, &state).unwrap();
         assert!(matches!(
             Store::open(folder.path(), "name = \"one\""),
             Err(StoreError::Busy(_))
@@ -331,9 +259,8 @@ mod tests {
             Store::open(folder.path(), "name = \"two\""),
             Err(StoreError::OtherProblem(..))
         ));
-        let (store, problem) = Store::existing(folder.path()).unwrap();
+        let (mut store, problem, contents) = Store::existing(folder.path()).unwrap();
         assert_eq!(problem, "name = \"one\"");
-        let contents = store.load().unwrap();
         assert_eq!(contents.sketches[&3], sketch(3));
         assert_eq!(contents.paths[&4], path);
         assert_eq!(contents.queue(), BTreeSet::from([3]));
@@ -342,8 +269,24 @@ mod tests {
             back: vec![5],
             ..Change::default()
         };
-        store.commit(&change, &state).unwrap();
-        assert_eq!(store.load().unwrap().queue(), BTreeSet::from([3, 5]));
+        store.commit(change, &state).unwrap();
+        drop(store);
+        let text = std::fs::read(file(folder.path())).unwrap();
+        let (_, _, contents) = Store::existing(folder.path()).unwrap();
+        assert_eq!(contents.queue(), BTreeSet::from([3, 5]));
+        // A line that was cut off is no line; one that is damaged is an error, and stays as it is.
+        std::fs::write(file(folder.path()), &text[..text.len() - 3]).unwrap();
+        let (_, _, contents) = Store::existing(folder.path()).unwrap();
+        assert_eq!(contents.queue(), BTreeSet::from([3]));
+        let mut damaged = text.clone();
+        damaged[text.len() - 3] ^= 1;
+        std::fs::write(file(folder.path()), &damaged).unwrap();
+        let error = Store::existing(folder.path()).unwrap_err().to_string();
+        assert!(
+            error.contains("line 3 of") && error.ends_with("is damaged"),
+            "{error}"
+        );
+        assert_eq!(std::fs::read(file(folder.path())).unwrap(), damaged);
         let empty = tempfile::tempdir().unwrap();
         assert!(matches!(
             Store::existing(empty.path()),

@@ -1,8 +1,8 @@
 //! `krawl all` with a store: ended at any moment, shared and merged, the answer and the cover are those of one run.
 
+use super::explore::checksum;
 use assert_cmd::Command;
 use serde_json::Value;
-use sha2::{Digest, Sha256};
 use std::path::Path;
 use std::process::{Command as Process, Stdio};
 use std::time::Duration;
@@ -166,11 +166,6 @@ fn shares_are_merged_to_the_same_answer_and_the_same_cover() {
 
 /// A store whose first line says something else, its checksum in order.
 fn with_head(whole: &str, change: impl Fn(&mut Value)) -> String {
-    let sum = |parts: [&str; 2]| -> String {
-        let digest = Sha256::new().chain_update(parts[0]).chain_update(parts[1]);
-        let bytes = digest.finalize();
-        bytes.iter().map(|byte| format!("{byte:02x}")).collect()
-    };
     let mut lines = whole.lines();
     let (head, _) = lines.next().unwrap().rsplit_once(' ').unwrap();
     let mut value: Value = serde_json::from_str(head).unwrap();
@@ -178,7 +173,7 @@ fn with_head(whole: &str, change: impl Fn(&mut Value)) -> String {
     // What it is comes first.
     let kind = value.as_object_mut().unwrap().remove("krawl").unwrap();
     let head = format!("{{\"krawl\":{kind},{}", &value.to_string()[1..]);
-    let mut out = format!("{head} {}\n", sum(["", &head]));
+    let mut out = format!("{head} {}\n", checksum("", &head));
     // The other lines are written behind the first one as krawl writes it.
     for line in lines {
         out += line;

@@ -5,6 +5,7 @@ use krawl::complete::{self, all};
 use krawl::explore::{End, Explorer, Finish, Options, Share};
 use krawl::problem::Problem;
 use serde_json::Value;
+use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
@@ -149,7 +150,7 @@ fn a_store_is_for_one_process_and_one_problem() {
     let store = folder.path().join("store");
     let mut child = spawn("problems/icosahedron.toml", &store, &["--jobs", "1"]);
     // It has the store once there is a file; until then this one would get it.
-    while !store.join("explore.redb").is_file() {
+    while !store.join("explored.krawl-store").is_file() {
         std::thread::sleep(Duration::from_millis(10));
     }
     std::thread::sleep(Duration::from_millis(200));
@@ -299,6 +300,13 @@ fn work_units_come_to_the_same_end() {
     assert_eq!(contents_of().2, plain.contents().classes.len());
 }
 
+/// Of a line behind the first, as krawl writes it.
+pub fn checksum(first: &str, line: &str) -> String {
+    let digest = Sha256::new().chain_update(first).chain_update(line);
+    let bytes = digest.finalize();
+    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
 /// Files from elsewhere are not believed: boxes are proved again, and other problems are refused.
 #[test]
 fn wrong_results_add_no_solution() {
@@ -318,13 +326,15 @@ fn wrong_results_add_no_solution() {
     let text = fs::read_to_string(&result).unwrap();
     let merge = || krawl().arg("merge").arg(&store).arg(&result).assert();
     let head = text.lines().next().unwrap();
-    let other = head.replace("sha256\":\"", "sha256\":\"0");
+    let other = head.replace("problem\":\"", "problem\":\"#");
     fs::write(&result, text.replace(head, &other)).unwrap();
     merge().code(2);
     // Solutions moved by a thousandth: Newton's method finds them again, but not where they are said to be.
     let mut moved = 0;
+    let (about, _) = head.rsplit_once(' ').unwrap();
     let lines = text.lines().skip(1).map(|line| {
-        let mut record: Value = serde_json::from_str(line).unwrap();
+        let (_, record) = line.split_once(' ').unwrap();
+        let mut record: Value = serde_json::from_str(record).unwrap();
         for solution in record["solutions"].as_array_mut().unwrap() {
             for x in solution["points"].as_array_mut().unwrap() {
                 for pair in x.as_array_mut().unwrap() {
@@ -335,7 +345,8 @@ fn wrong_results_add_no_solution() {
             }
             moved += 1;
         }
-        record.to_string() + "\n"
+        let record = record.to_string();
+        format!("{} {record}\n", checksum(about, &record))
     });
     let moved_text: String = lines.collect();
     fs::write(&result, format!("{head}\n{moved_text}")).unwrap();

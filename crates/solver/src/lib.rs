@@ -25,6 +25,8 @@ pub mod complete;
 pub mod complex;
 pub mod digits;
 pub mod edit;
+#[doc(hidden)]
+pub mod journal;
 pub mod motion;
 #[doc(hidden)]
 pub mod remarks;
