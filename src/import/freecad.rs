@@ -597,31 +597,14 @@ fn degrees(radians: f64) -> f64 {
     }
 }
 
+/// FreeCAD's names of its kinds of constraints, by number.
+const KINDS: &str = "None Coincident Horizontal Vertical Parallel Tangent Distance DistanceX DistanceY Angle Perpendicular \
+    Radius Equal PointOnObject Symmetric InternalAlignment SnellsLaw Block Diameter Weight";
+
 fn kind_name(kind: i64) -> String {
-    let names = [
-        "None",
-        "Coincident",
-        "Horizontal",
-        "Vertical",
-        "Parallel",
-        "Tangent",
-        "Distance",
-        "DistanceX",
-        "DistanceY",
-        "Angle",
-        "Perpendicular",
-        "Radius",
-        "Equal",
-        "PointOnObject",
-        "Symmetric",
-        "InternalAlignment",
-        "SnellsLaw",
-        "Block",
-        "Diameter",
-        "Weight",
-    ];
-    let name = usize::try_from(kind).ok().and_then(|k| names.get(k));
-    name.map_or_else(|| format!("type {kind}"), |name| (*name).to_owned())
+    let known = usize::try_from(kind).ok();
+    let name = known.and_then(|k| KINDS.split_whitespace().nth(k));
+    name.map_or_else(|| format!("type {kind}"), str::to_owned)
 }
 
 /// What a constraint is called: its name, or its place.

@@ -36,6 +36,7 @@ pub mod urdf;
 use crate::complete::Surplus;
 use crate::edit::Setting;
 use crate::problem::{Decimal, Problem};
+pub(crate) use molecule::ELEMENTS;
 pub use molecule::{Conformer, Skeleton};
 
 /// The largest file that is read, in bytes.

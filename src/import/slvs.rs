@@ -277,46 +277,22 @@ pub fn list(bytes: &[u8]) -> Result<Vec<Listed>, String> {
 
 const COMMENT: u32 = 1000;
 
-/// SolveSpace's names of its kinds of constraints.
+/// SolveSpace's kinds of constraints: numbers and names.
+const KINDS: &str = "20 POINTS_COINCIDENT 30 PT_PT_DISTANCE 31 PT_PLANE_DISTANCE 32 PT_LINE_DISTANCE 33 PT_FACE_DISTANCE 34 \
+    PROJ_PT_DISTANCE 41 PT_IN_PLANE 42 PT_ON_LINE 43 PT_ON_FACE 50 EQUAL_LENGTH_LINES 51 LENGTH_RATIO 52 \
+    EQ_LEN_PT_LINE_D 53 EQ_PT_LN_DISTANCES 54 EQUAL_ANGLE 55 EQUAL_LINE_ARC_LEN 56 LENGTH_DIFFERENCE 60 SYMMETRIC 61 \
+    SYMMETRIC_HORIZ 62 SYMMETRIC_VERT 63 SYMMETRIC_LINE 70 AT_MIDPOINT 80 HORIZONTAL 81 VERTICAL 90 DIAMETER 100 \
+    PT_ON_CIRCLE 110 SAME_ORIENTATION 120 ANGLE 121 PARALLEL 122 PERPENDICULAR 123 ARC_LINE_TANGENT 124 \
+    CUBIC_LINE_TANGENT 125 CURVE_CURVE_TANGENT 130 EQUAL_RADIUS 200 WHERE_DRAGGED";
+
 fn kind_name(kind: u32) -> String {
-    let name = match kind {
-        20 => "POINTS_COINCIDENT",
-        30 => "PT_PT_DISTANCE",
-        31 => "PT_PLANE_DISTANCE",
-        32 => "PT_LINE_DISTANCE",
-        33 => "PT_FACE_DISTANCE",
-        34 => "PROJ_PT_DISTANCE",
-        41 => "PT_IN_PLANE",
-        42 => "PT_ON_LINE",
-        43 => "PT_ON_FACE",
-        50 => "EQUAL_LENGTH_LINES",
-        51 => "LENGTH_RATIO",
-        52 => "EQ_LEN_PT_LINE_D",
-        53 => "EQ_PT_LN_DISTANCES",
-        54 => "EQUAL_ANGLE",
-        55 => "EQUAL_LINE_ARC_LEN",
-        56 => "LENGTH_DIFFERENCE",
-        60 => "SYMMETRIC",
-        61 => "SYMMETRIC_HORIZ",
-        62 => "SYMMETRIC_VERT",
-        63 => "SYMMETRIC_LINE",
-        70 => "AT_MIDPOINT",
-        80 => "HORIZONTAL",
-        81 => "VERTICAL",
-        90 => "DIAMETER",
-        100 => "PT_ON_CIRCLE",
-        110 => "SAME_ORIENTATION",
-        120 => "ANGLE",
-        121 => "PARALLEL",
-        122 => "PERPENDICULAR",
-        123 => "ARC_LINE_TANGENT",
-        124 => "CUBIC_LINE_TANGENT",
-        125 => "CURVE_CURVE_TANGENT",
-        130 => "EQUAL_RADIUS",
-        200 => "WHERE_DRAGGED",
-        other => return format!("type {other}"),
-    };
-    name.to_owned()
+    let number = kind.to_string();
+    let mut words = KINDS
+        .split_whitespace()
+        .skip_while(|word| **word != *number);
+    words
+        .nth(1)
+        .map_or_else(|| format!("type {kind}"), str::to_owned)
 }
 
 /// Products of unit vectors that are rounded differ from exact ones by less than this.

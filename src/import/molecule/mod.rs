@@ -238,85 +238,45 @@ pub fn list(bytes: &[u8], format: Format) -> Result<Vec<Listed>, String> {
     Ok(listed.collect())
 }
 
-/// Covalent radii in ångström, by atomic number less one (of Mn, Fe, Co those of low spin); 0 where none is listed.
-const RADII: [(&str, f64); 54] = [
-    ("H", 0.31),
-    ("He", 0.28),
-    ("Li", 1.28),
-    ("Be", 0.96),
-    ("B", 0.84),
-    ("C", 0.76),
-    ("N", 0.71),
-    ("O", 0.66),
-    ("F", 0.57),
-    ("Ne", 0.58),
-    ("Na", 1.66),
-    ("Mg", 1.41),
-    ("Al", 1.21),
-    ("Si", 1.11),
-    ("P", 1.07),
-    ("S", 1.05),
-    ("Cl", 1.02),
-    ("Ar", 1.06),
-    ("K", 2.03),
-    ("Ca", 1.76),
-    ("Sc", 1.70),
-    ("Ti", 1.60),
-    ("V", 1.53),
-    ("Cr", 1.39),
-    ("Mn", 1.39),
-    ("Fe", 1.32),
-    ("Co", 1.26),
-    ("Ni", 1.24),
-    ("Cu", 1.32),
-    ("Zn", 1.22),
-    ("Ga", 1.22),
-    ("Ge", 1.20),
-    ("As", 1.19),
-    ("Se", 1.20),
-    ("Br", 1.20),
-    ("Kr", 1.16),
-    ("Rb", 2.20),
-    ("Sr", 1.95),
-    ("Y", 1.90),
-    ("Zr", 1.75),
-    ("Nb", 1.64),
-    ("Mo", 1.54),
-    ("Tc", 1.47),
-    ("Ru", 1.46),
-    ("Rh", 1.42),
-    ("Pd", 1.39),
-    ("Ag", 1.45),
-    ("Cd", 1.44),
-    ("In", 1.42),
-    ("Sn", 1.39),
-    ("Sb", 1.39),
-    ("Te", 1.38),
-    ("I", 1.39),
-    ("Xe", 1.40),
+/// The symbols of the elements, by atomic number.
+pub(crate) const ELEMENTS: &str = "H He Li Be B C N O F Ne Na Mg Al Si P S Cl Ar K Ca Sc Ti V Cr Mn Fe Co Ni Cu Zn Ga \
+    Ge As Se Br Kr Rb Sr Y Zr Nb Mo Tc Ru Rh Pd Ag Cd In Sn Sb Te I Xe Cs Ba La Ce Pr Nd Pm Sm Eu Gd Tb Dy Ho Er Tm Yb \
+    Lu Hf Ta W Re Os Ir Pt Au Hg Tl Pb Bi Po At Rn Fr Ra Ac Th Pa U Np Pu Am Cm Bk Cf Es Fm Md No Lr Rf Db Sg Bh Hs Mt \
+    Ds Rg Cn Nh Fl Mc Lv Ts Og";
+/// Covalent radii of the first of them in ångström (of Mn, Fe, Co those of low spin).
+const RADII: [f64; 54] = [
+    0.31, 0.28, 1.28, 0.96, 0.84, 0.76, 0.71, 0.66, 0.57, 0.58, 1.66, 1.41, 1.21, 1.11, 1.07, 1.05,
+    1.02, 1.06, 2.03, 1.76, 1.70, 1.60, 1.53, 1.39, 1.39, 1.32, 1.26, 1.24, 1.32, 1.22, 1.22, 1.20,
+    1.19, 1.20, 1.20, 1.16, 2.20, 1.95, 1.90, 1.75, 1.64, 1.54, 1.47, 1.46, 1.42, 1.39, 1.45, 1.44,
+    1.42, 1.39, 1.39, 1.38, 1.39, 1.40,
 ];
+
+/// The elements whose radii are known, with these.
+fn known() -> impl Iterator<Item = (&'static str, f64)> {
+    ELEMENTS.split_whitespace().zip(RADII)
+}
 
 /// The element that a file means: by its symbol, in letters of either case and with a number behind it (`CL`, `C12`), or
 /// by its atomic number.
 fn element(text: &str) -> &str {
     if let Ok(number) = text.parse::<usize>() {
-        let known = number.checked_sub(1).and_then(|k| RADII.get(k));
-        return known.map_or(text, |(symbol, _)| symbol);
+        let found = number.checked_sub(1).and_then(|k| known().nth(k));
+        return found.map_or(text, |(symbol, _)| symbol);
     }
     let letters = text.trim_end_matches(|c: char| c.is_ascii_digit());
     if letters.eq_ignore_ascii_case("D") || letters.eq_ignore_ascii_case("T") {
         return "H";
     }
-    let mut all = RADII.iter();
-    all.find(|(symbol, _)| symbol.eq_ignore_ascii_case(letters))
+    known()
+        .find(|(symbol, _)| symbol.eq_ignore_ascii_case(letters))
         .map_or(text, |(symbol, _)| symbol)
 }
 
 /// Its covalent radius.
 fn radius(symbol: &str) -> Option<f64> {
-    let mut all = RADII.iter();
-    all.find(|(known, _)| *known == symbol)
-        .map(|(_, radius)| *radius)
+    known()
+        .find(|(known, _)| *known == symbol)
+        .map(|(_, radius)| radius)
 }
 
 pub fn read(bytes: &[u8], format: Format, index: usize) -> Result<Imported, String> {

@@ -3,7 +3,7 @@
 //! Columns are those of version 3.3 of the format. Water is left out; where a residue has several places (alternate locations) the first one counts. Both are told
 //! ([`Molecule::notes`]). Bonds are those of the CONECT records where each atom of the chain has one, and are told by covalent radii otherwise.
 
-use super::{Molecule, RADII};
+use super::{Molecule, known};
 use crate::order::each_once;
 use std::collections::{HashMap, HashSet};
 
@@ -96,7 +96,7 @@ impl<'a> Atom<'a> {
 }
 
 fn is_an_element(symbol: &str) -> bool {
-    let mut all = RADII.iter().map(|(known, _)| *known).chain(["D", "T"]);
+    let mut all = known().map(|(symbol, _)| symbol).chain(["D", "T"]);
     all.any(|known| known.eq_ignore_ascii_case(symbol))
 }
 

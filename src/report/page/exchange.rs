@@ -1,14 +1,9 @@
 //! Figures for other programs: DXF, Wavefront OBJ and XYZ.
 
 use super::Page;
+use crate::import::ELEMENTS;
 use crate::places::Each as _;
 use std::fmt::Write;
-
-/// The symbols of the elements, as XYZ files have them.
-const ELEMENTS: &str = " H He Li Be B C N O F Ne Na Mg Al Si P S Cl Ar K Ca Sc Ti V Cr Mn Fe Co Ni Cu Zn \
-    Ga Ge As Se Br Kr Rb Sr Y Zr Nb Mo Tc Ru Rh Pd Ag Cd In Sn Sb Te I Xe Cs Ba La Ce Pr Nd Pm Sm Eu Gd Tb \
-    Dy Ho Er Tm Yb Lu Hf Ta W Re Os Ir Pt Au Hg Tl Pb Bi Po At Rn Fr Ra Ac Th Pa U Np Pu Am Cm Bk Cf Es Fm \
-    Md No Lr Rf Db Sg Bh Hs Mt Ds Rg Cn Nh Fl Mc Lv Ts Og ";
 
 impl Page {
     /// The figures as Wavefront OBJ: an object for each, its points as vertices and its bars as lines.
@@ -132,7 +127,7 @@ fn atom(name: &str) -> String {
         first.make_ascii_uppercase();
     }
     match letters.len() {
-        1 | 2 if ELEMENTS.contains(&format!(" {symbol} ")) => symbol,
+        1 | 2 if ELEMENTS.split(' ').any(|known| known == symbol) => symbol,
         _ => one_line(name).replace(' ', "_"),
     }
 }
