@@ -41,7 +41,7 @@ pub struct Arguments {
     source: input::Source,
     /// A dimension and its new value: a-b=5.2, radii:hole=3, c00f=45
     ///
-    /// Given several times, all move together. Of a FreeCAD file a cell of a spreadsheet may be set, too: Spreadsheet.width=90
+    /// Given several times, all move together. Of a FreeCAD file a cell of a spreadsheet or a variable may be set, too: Spreadsheet.width=90, VarSet.width=90
     #[arg(
         long,
         value_name = "NAME=VALUE",

@@ -299,8 +299,8 @@ impl Imported {
         }
     }
 
-    /// Gives a cell of the file's spreadsheets, `Spreadsheet.width`, another number, in the unit that it has there: [`Imported::followed`]
-    /// says what follows, and [`rewrite`] writes it. `None`: no cell has that name.
+    /// Gives a cell of the file's spreadsheets, `Spreadsheet.width`, or a variable, `VarSet.width`, another number, in the unit that it has
+    /// there: [`Imported::followed`] says what follows, and [`rewrite`] writes it. `None`: neither has that name.
     #[cfg_attr(not(feature = "freecad"), allow(unused_variables))]
     pub fn set_cell(&mut self, name: &str, value: &str) -> Option<Result<(), String>> {
         match &mut self.places {

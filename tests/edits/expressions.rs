@@ -11,9 +11,38 @@ use std::path::Path;
 /// A corner at the origin: `wide` to the right, `high` up from its end, and an angle `turn` from the x axis to a line of the length `long`
 /// from the origin; with these numbers and expressions, and the cells of a spreadsheet `Sheet`.
 fn corner(
-    [wide, high, long, turn]: [f64; 4],
+    numbers: [f64; 4],
     expressions: &[(&str, &str)],
     cells: &[(&str, &str, &str)],
+) -> Vec<u8> {
+    let cells: String = cells
+        .iter()
+        .map(|(address, alias, text)| {
+            format!(
+                "<Cell address=\"{address}\" content=\"{}\" alias=\"{alias}\"/>",
+                escaped(text)
+            )
+        })
+        .collect();
+    let label = "<Property name=\"Label\"><String value=\"my sizes\"/></Property>";
+    let cells = format!("{label}<Property name=\"cells\"><Cells>{cells}</Cells></Property>");
+    let sheet = ("Spreadsheet::Sheet", "Sheet", &cells[..]);
+    beside(
+        numbers,
+        expressions,
+        &[sheet, ("PartDesign::Pad", "Pad", "")],
+    )
+}
+
+fn escaped(text: &str) -> String {
+    text.replace('<', "&lt;").replace('"', "&quot;")
+}
+
+/// The corner, with other objects: their kinds, names and properties.
+fn beside(
+    [wide, high, long, turn]: [f64; 4],
+    expressions: &[(&str, &str)],
+    others: &[(&str, &str, &str)],
 ) -> Vec<u8> {
     let (sin, cos) = turn.to_radians().sin_cos();
     let constraints = [
@@ -30,7 +59,6 @@ fn corner(
     let geometry = line([0.0, 0.0, wide, 0.0])
         + &line([wide, 0.0, wide, high])
         + &line([0.0, 0.0, long * cos, long * sin]);
-    let escaped = |text: &str| text.replace('<', "&lt;").replace('"', "&quot;");
     let expressions: String = expressions
         .iter()
         .map(|(path, text)| {
@@ -40,27 +68,79 @@ fn corner(
             )
         })
         .collect();
-    let cells: String = cells
-        .iter()
-        .map(|(address, alias, text)| {
-            format!(
-                "<Cell address=\"{address}\" content=\"{}\" alias=\"{alias}\"/>",
-                escaped(text)
-            )
-        })
-        .collect();
-    let label = "<Property name=\"Label\"><String value=\"my sizes\"/></Property>";
-    let cells = format!("{label}<Property name=\"cells\"><Cells>{cells}</Cells></Property>");
     let sketch = sketch(&constraints.concat(), &geometry, &expressions);
-    archive(&[
-        ("Sketcher::SketchObject", "Sketch", &sketch),
-        ("Spreadsheet::Sheet", "Sheet", &cells),
-        ("PartDesign::Pad", "Pad", ""),
-    ])
+    archive(&[&[("Sketcher::SketchObject", "Sketch", &sketch[..])], others].concat())
 }
 
 fn read(bytes: &[u8]) -> Imported {
     import::read("corner.FCStd", bytes, None).unwrap()
+}
+
+/// Variables of a `VarSet`, as FreeCAD 1.0 has them, are named, computed from one another and set.
+#[test]
+fn variables_are_read_and_set() {
+    let property = |kind: &str, name: &str, value: &str| {
+        format!(
+            "<Property name=\"{name}\" type=\"App::Property{kind}\" group=\"Base\" doc=\"\" attr=\"0\" ro=\"0\" hide=\"0\">{value}</Property>"
+        )
+    };
+    let number = |kind: &str, name: &str, value: &str| {
+        property(kind, name, &format!("<Float value=\"{value}\"/>"))
+    };
+    let variables = [
+        property("String", "Label", "<String value=\"sizes\"/>"),
+        number("Length", "width", "20.0000000000000000"),
+        number("Distance", "low", "12.0000000000000000"),
+        property("Integer", "n", "<Integer value=\"2\"/>"),
+        number("Area", "area", "7.0"),
+        property(
+            "ExpressionEngine",
+            "ExpressionEngine",
+            "<ExpressionEngine count=\"1\"><Expression path=\"low\" expression=\"width / 2 + 2 mm\"/></ExpressionEngine>",
+        ),
+    ];
+    let expressions = [
+        ("Constraints.wide", "VarSet.width"),
+        ("Constraints.high", "<<sizes>>.low"),
+        ("Constraints.long", "VarSet.n * VarSet.width"),
+    ];
+    let variables = variables.concat();
+    let bytes = beside(
+        [20.0, 12.0, 40.0, 30.0],
+        &expressions,
+        &[("App::VarSet", "VarSet", &variables)],
+    );
+    let directory = tempfile::tempdir().unwrap();
+    let [file, out] = ["a.FCStd", "b.FCStd"].map(|name| directory.path().join(name));
+    fs::write(&file, bytes).unwrap();
+    let set =
+        |file: &Path, to: &str| run(file, &["edit", "--set", to, "--out", out.to_str().unwrap()]);
+    let (code, text) = set(&file, "VarSet.width=30");
+    for words in [
+        "wide to 30, computed",
+        "high to 17, computed",
+        "long to 60, computed",
+    ] {
+        assert!(code == 0 && text.contains(words), "{words}: {text}");
+    }
+    let edited = read(&fs::read(&out).unwrap());
+    // What is computed there is written, too.
+    assert!(
+        edited.tied.iter().all(|tied| tied.fault.is_none()),
+        "{:?}",
+        edited.tied
+    );
+    let (code, text) = set(&out.clone(), "VarSet.n=3");
+    assert!(code == 0 && text.contains("long to 90, computed"), "{text}");
+    for (to, words) in [
+        ("VarSet.n=2.5", "a whole number"),
+        ("VarSet.low=3", "is computed, by `width / 2 + 2 mm`"),
+        ("VarSet.area=3", "VarSet.area"),
+        ("VarSet.width=wide", "no number"),
+    ] {
+        let (code, text) = set(&file, to);
+        assert!(code == 2 && text.contains(words), "{words}: {text}");
+    }
 }
 
 /// What follows where dimensions are set: names and numbers, and the warnings.

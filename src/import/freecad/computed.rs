@@ -1,4 +1,5 @@
-//! The numbers of a document that expressions name or make: dimensions of all its sketches, and cells of its spreadsheets.
+//! The numbers of a document that expressions name or make: dimensions of all its sketches, cells of its spreadsheets, and variables of
+//! its `VarSet` objects.
 
 use super::formula::{Found, Part, Path, evaluate};
 use super::quantity::Quantity;
@@ -11,26 +12,35 @@ use std::ops::Range;
 /// So many numbers are computed from one another, each from one that is not known yet.
 const MOST: usize = 50;
 
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Kind {
+    /// Numbers have names behind the object's.
+    Sheet,
+    Variables,
+    /// Numbers, if there are any, have names behind `Constraints`.
+    Sketch,
+}
+
 /// An object of the document.
 #[derive(Debug, Clone)]
 struct Object {
     name: String,
     label: String,
-    is_sheet: bool,
+    kind: Kind,
     /// Its numbers, in the order of the file.
     entries: Range<usize>,
 }
 
-/// A dimension or a cell.
+/// A dimension, a cell or a variable.
 #[derive(Debug, Clone)]
 struct Entry {
     object: usize,
     /// The name of a dimension; of a cell its alias, or its address where it has none.
     name: Option<String>,
     content: Content,
-    /// Of a cell: its text, and where that is in the file.
+    /// Of a cell and a variable: its text, and where that is in the file.
     cell: (String, Range<usize>),
-    /// Whether the cell has another text than in the file.
+    /// Whether it has another text than in the file.
     is_set: bool,
 }
 
@@ -75,6 +85,25 @@ fn cell(text: &str) -> (Content, &str) {
     (content, name)
 }
 
+/// The unit of a variable of this type, if it is one that is read.
+fn unit_of(kind: &str) -> Option<Quantity> {
+    match kind.strip_prefix("App::Property")? {
+        "Length" | "Distance" => Some(Quantity::length(1.0)),
+        "Angle" => Some(Quantity::angle(1.0)),
+        "Float" | "Integer" => Some(Quantity::plain(1.0)),
+        _ => None,
+    }
+}
+
+/// A variable's new number, in the form that it has in the file. `None`: there it is whole, and this is not.
+fn written(before: &str, number: f64) -> Option<String> {
+    match (before.parse::<i64>().is_ok(), number.fract() == 0.0) {
+        (true, false) => None,
+        (true, true) => Some(number.to_string()),
+        (false, _) => Some(format!("{number:.16}")),
+    }
+}
+
 /// The number of a constraint.
 fn dimension(node: Node) -> Content {
     let value = number(node, "Value");
@@ -105,6 +134,24 @@ impl Numbers {
                 let text = text.unwrap_or_default();
                 numbers.add(node, &["alias", "address"], cell(&text.0).0, text);
             }
+            let kind_of = match kind {
+                Some("App::VarSet") => Kind::Variables,
+                _ if property(node, "cells").is_some() => Kind::Sheet,
+                _ => Kind::Sketch,
+            };
+            let properties = node.descendants().filter(|n| n.has_tag_name("Property"));
+            for node in properties.filter(|_| kind_of == Kind::Variables) {
+                let number = node.children().find_map(|n| n.attribute_node("value"));
+                let unit = node.attribute("type").and_then(unit_of);
+                if let (Some(number), Some(unit)) = (number, unit) {
+                    let content = match number.value().parse().ok() {
+                        Some(value) => Content::Given(unit.with(value)),
+                        None => Content::Other("is no number"),
+                    };
+                    let text = (number.value().to_owned(), number.range_value());
+                    numbers.add(node, &["name"], content, text);
+                }
+            }
             if name == own {
                 numbers.own = numbers.objects.len();
             }
@@ -113,7 +160,7 @@ impl Numbers {
             numbers.objects.push(Object {
                 name: name.to_owned(),
                 label: label.unwrap_or("").to_owned(),
-                is_sheet: property(node, "cells").is_some(),
+                kind: kind_of,
                 entries: begin..numbers.entries.len(),
             });
         }
@@ -172,8 +219,10 @@ impl Numbers {
         };
         let own = &self.objects[object];
         let (name, rest) = match parts {
-            [Part::Name("Constraints"), name, rest @ ..] if !own.is_sheet => (name, rest),
-            [name, rest @ ..] if own.is_sheet => (name, rest),
+            [Part::Name("Constraints"), name, rest @ ..] if own.kind == Kind::Sketch => {
+                (name, rest)
+            }
+            [name, rest @ ..] if own.kind != Kind::Sketch => (name, rest),
             _ => return None,
         };
         let entry = match name {
@@ -229,25 +278,31 @@ impl Numbers {
         self.faults[self.entry(source)].as_ref()
     }
 
-    /// Gives a cell another number, in the unit that it has. `None`: that is no name of a cell.
+    /// Gives a cell or a variable another number, in the unit that it has. `None`: that is the name of neither.
     pub fn set_cell(&mut self, name: &str, value: &str) -> Option<Result<(), String>> {
         let (entry, _) = self.find(self.own, &Path::read(name).ok()?)?;
         let entry = &mut self.entries[entry];
-        if !self.objects[entry.object].is_sheet {
-            return None;
-        }
-        let number = value.trim().parse().ok().filter(|x: &f64| x.is_finite());
-        let text = match (&entry.content, number.and_then(decimal)) {
+        let kind = self.objects[entry.object].kind;
+        let text = match (&entry.content, value.trim().parse().ok().and_then(decimal)) {
+            _ if kind == Kind::Sketch => return None,
             (Content::Computed(text, _), _) => Err(format!(
-                "{name} is computed, by `{text}`: set the cells in it"
+                "{name} is computed, by `{text}`: set what is in it"
             )),
             (_, None) => Err(format!("{name}: `{value}` is no number")),
             (Content::Other(_), _) => Err(format!("{name} is no number in the file")),
-            (_, Some(number)) => Ok(format!("={number} {}", cell(&entry.cell.0).1)),
+            (Content::Given(unit), Some(number)) if kind == Kind::Variables => {
+                let number = number.to_f64();
+                let text = written(&entry.cell.0, number);
+                let text = text.ok_or_else(|| format!("{name} is a whole number in the file"));
+                text.map(|text| (Content::Given(unit.with(number)), text))
+            }
+            (_, Some(number)) => {
+                let text = format!("={number} {}", cell(&entry.cell.0).1);
+                Ok((cell(&text).0, text.trim_end().to_owned()))
+            }
         };
-        Some(text.map(|text| {
-            entry.content = cell(&text).0;
-            entry.cell.0 = text.trim_end().to_owned();
+        Some(text.map(|(content, text)| {
+            (entry.content, entry.cell.0) = (content, text);
             entry.is_set = true;
         }))
     }
@@ -288,8 +343,8 @@ impl<'a> Evaluation<'a> {
             evaluation.known[numbers.entry(source)] = Some((Ok(number), is_new));
         }
         // Cells in the order of the file, in which columns go down as a rule: most of what each names is known then.
-        let sheets = numbers.objects.iter().filter(|o| o.is_sheet);
-        for entry in sheets.flat_map(|sheet| sheet.entries.clone()) {
+        let tables = numbers.objects.iter().filter(|o| o.kind != Kind::Sketch);
+        for entry in tables.flat_map(|table| table.entries.clone()) {
             let _ = evaluation.value(entry);
         }
         evaluation
@@ -300,12 +355,30 @@ impl<'a> Evaluation<'a> {
         let numbers = self.numbers;
         let all = numbers.entries.iter().enumerate();
         let computed = all.filter(|(_, entry)| {
-            let is_elsewhere =
-                entry.object != numbers.own && !numbers.objects[entry.object].is_sheet;
-            is_elsewhere && matches!(entry.content, Content::Computed(..))
+            let kind = numbers.objects[entry.object].kind;
+            entry.object != numbers.own
+                && kind == Kind::Sketch
+                && matches!(entry.content, Content::Computed(..))
         });
         let follow = computed.filter(|(entry, _)| self.value(*entry).1);
         follow.map(|(entry, _)| numbers.shown(entry)).collect()
+    }
+
+    /// The variables that are computed to another number than the file has: that as text, and where it is in the file.
+    pub fn variables(&mut self) -> Vec<(String, Range<usize>)> {
+        let numbers = self.numbers;
+        let all = numbers.entries.iter().enumerate();
+        let variables =
+            all.filter(|(_, entry)| numbers.objects[entry.object].kind == Kind::Variables);
+        let changed = variables.filter_map(|(index, entry)| {
+            let Content::Computed(_, Some(said)) = entry.content else {
+                return None;
+            };
+            let value = self.value(index).0.ok()?.value;
+            let text = || written(&entry.cell.0, value);
+            (!is_same(value, said.value)).then(|| Some((text()?, entry.cell.1.clone())))?
+        });
+        changed.collect()
     }
 
     /// The number of a constraint of the sketch, and whether it follows from what is new.
@@ -346,7 +419,7 @@ impl<'a> Evaluation<'a> {
         let value = evaluate(text, &mut |path| {
             let found = numbers.find(of.object, path).ok_or_else(|| {
                 let name = path.text;
-                format!("`{name}` is neither a dimension of a sketch nor a cell of a spreadsheet")
+                format!("`{name}` is neither a dimension of a sketch nor a cell of a spreadsheet nor a variable of a VarSet")
             });
             let (other, is_bare) = found?;
             let (value, is_other_new) = self.value(other);

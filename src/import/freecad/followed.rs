@@ -2,10 +2,12 @@
 
 use super::Places;
 use super::computed::{Evaluation, Numbers, is_same};
+use super::quantity::Quantity;
 use crate::edit::Setting;
 use crate::import::drawing::decimal;
 use crate::import::{Followed, Follower, Imported, Tied, value};
 use crate::problem::{Point, Problem};
+use std::ops::Range;
 
 /// The first dimension that a constraint of the file is.
 fn dimension_of(imported: &Imported, source: usize) -> Option<usize> {
@@ -46,24 +48,48 @@ pub fn sign(said: f64, before: f64) -> f64 {
     if said * before < 0.0 { -1.0 } else { 1.0 }
 }
 
+/// The number of a dimension in the file, and its sign against the one in the problem.
+fn signed(imported: &Imported, places: &Places, index: usize) -> Option<(Quantity, f64)> {
+    let said = places.computed.said(imported.sources[index]?)?;
+    let before = value(&imported.problem, index);
+    Some((said, sign(said.value, before)))
+}
+
+/// What the file's expressions come to where the sketch's dimensions are as in `now`, those that have none and those that are set.
+fn evaluation<'a>(
+    imported: &Imported,
+    places: &'a Places,
+    now: &Problem,
+    is_set: impl Fn(usize) -> bool,
+) -> Evaluation<'a> {
+    let is_tied = |index: usize| imported.tied.iter().any(|tied| tied.index == index);
+    let all = now.dimensions().filter(|&i| is_set(i) || !is_tied(i));
+    let given = all.filter_map(|index| {
+        let (said, sign) = signed(imported, places, index)?;
+        let number = said.with(sign * value(now, index));
+        Some((imported.sources[index]?, number, is_set(index)))
+    });
+    Evaluation::new(&places.computed, given)
+}
+
+/// The variables that expressions compute, where they come to other numbers than in the file: these as text, and where they are
+/// in the file.
+pub fn variables(
+    imported: &Imported,
+    places: &Places,
+    now: &Problem,
+) -> Vec<(String, Range<usize>)> {
+    let mut evaluation = evaluation(imported, places, now, |_| false);
+    evaluation.variables()
+}
+
 /// What follows by the file's expressions where these dimensions, and cells, are set, and all others are as in `now`.
 pub fn followed(imported: &Imported, places: &Places, now: &Problem, set: &[Setting]) -> Followed {
     let (numbers, before) = (&places.computed, &imported.problem);
     let is_set = |index: usize| set.iter().any(|setting| setting.index == index);
-    let is_tied = |index: usize| imported.tied.iter().any(|tied| tied.index == index);
     let mut then = now.clone();
     set.iter().for_each(|setting| setting.apply(&mut then));
-    let signed = |index: usize| {
-        let said = numbers.said(imported.sources[index]?)?;
-        Some((said, sign(said.value, value(before, index))))
-    };
-    let given = before.dimensions().filter(|&i| is_set(i) || !is_tied(i));
-    let given = given.filter_map(|index| {
-        let (said, sign) = signed(index)?;
-        let number = said.with(sign * value(&then, index));
-        Some((imported.sources[index]?, number, is_set(index)))
-    });
-    let mut evaluation = Evaluation::new(numbers, given);
+    let mut evaluation = evaluation(imported, places, &then, is_set);
     let mut followed = Followed::default();
     let is_external = |point: &Point| point.name.starts_with("external");
     if numbers.set_cells().next().is_some() && before.points.iter().any(is_external) {
@@ -85,7 +111,8 @@ pub fn followed(imported: &Imported, places: &Places, now: &Problem, set: &[Sett
             continue;
         }
         let (found, is_new) = evaluation.number(source);
-        let here = index.and_then(|index| Some((index, signed(index)?.1, value(now, index))));
+        let here = index
+            .and_then(|index| Some((index, signed(imported, places, index)?.1, value(now, index))));
         let why = match (found, here) {
             (Err(why), _) if is_new || numbers.fault(source).is_some() => why,
             (Ok(by_it), Some((index, sign, here))) => match decimal(sign * by_it.value) {

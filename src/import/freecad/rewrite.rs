@@ -1,6 +1,6 @@
 //! The file with a sketch's new numbers.
 
-use super::followed::sign;
+use super::followed::{sign, variables};
 use super::{DOCUMENT, Number, Places, archive, document};
 use crate::import::{Figure, Imported, changed};
 use crate::order::InOrder;
@@ -20,7 +20,8 @@ pub fn rewrite(
 ) -> Result<Vec<u8>, String> {
     let mut text = document(bytes)?;
     let mut changes: Vec<(Range<usize>, String)> = Vec::new();
-    for (content, range) in places.computed.set_cells() {
+    let variables = variables(imported, places, problem);
+    for (content, range) in places.computed.set_cells().chain(&variables) {
         // What stands for itself in a text, and not in an attribute.
         let content = content.replace('&', "&amp;").replace('"', "&quot;");
         changes.push((
