@@ -43,9 +43,8 @@ pub struct Arguments {
     /// Molecules: .xyz, .mol, .sdf, .pdb, .ent. Systems: of PHCpack, msolve, Macaulay2 or HomotopyContinuation.jl;
     /// the text tells which.
     file: PathBuf,
-    /// Which molecule of a file that holds several
-    #[arg(long, value_name = "NAME")]
-    sketch: Option<String>,
+    #[command(flatten)]
+    which: input::Which,
     /// Write the result as JSON; `-` is standard output
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
@@ -120,10 +119,10 @@ fn share(text: &str) -> Result<[usize; 2], String> {
 
 /// Runs the verb and returns the exit code.
 pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
-    let (file, sketch) = (&arguments.file, arguments.sketch.as_deref());
+    let (file, which) = (&arguments.file, &arguments.which);
     arguments.take.check(file)?;
     let tolerance = arguments.redundant_tolerance;
-    let asked = input::asked((file, sketch), tolerance, arguments.any_signs)?;
+    let asked = input::asked((file, which), tolerance, arguments.any_signs)?;
     let problem = asked.problem;
     let measures = arguments.measured.of(&problem)?;
     let named = [arguments.json.as_deref(), None];
@@ -237,7 +236,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
     };
     let figure = |number| Taken::of(&problem, &result.solutions[number as usize], either);
     let take = &arguments.take;
-    results.note(take.write((file, sketch), &problem, listed, figure));
+    results.note(take.write((file, which), &problem, listed, figure));
     let is_decided = result.tested.as_ref().is_none_or(Tested::is_decided);
     let of_status = match result.status {
         Status::Complete if is_decided => CLOSED,

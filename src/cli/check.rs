@@ -31,11 +31,8 @@ pub struct Arguments {
     ///
     /// Sketches of SolveSpace (.slvs) and FreeCAD (.FCStd); molecules (.xyz, .mol, .sdf, .pdb, .ent)
     file: PathBuf,
-    /// Which sketch of a file that holds several
-    ///
-    /// Left out, all are listed where there are several
-    #[arg(long, value_name = "NAME")]
-    sketch: Option<String>,
+    #[command(flatten)]
+    which: input::Which,
     /// Show where the Jacobian has entries, ordered by the construction plan
     ///
     /// However many coordinates there are (otherwise up to 40)
@@ -54,13 +51,13 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
     // One molecule is described as a problem.
     let is_one = || {
         let is_single = || listed(&arguments.file).is_ok_and(|listed| listed.len() == 1);
-        is_molecule && (arguments.sketch.is_some() || is_single())
+        is_molecule && (arguments.which.sketch.is_some() || is_single())
     };
     if format.is_some() && !is_one() {
-        let (text, code) = describe_sketches(&arguments.file, arguments.sketch.as_deref())?;
+        let (text, code) = describe_sketches(&arguments.file, &arguments.which)?;
         return printed(&text, code);
     }
-    let problem = match input::read(&arguments.file, arguments.sketch.as_deref()) {
+    let problem = match input::read(&arguments.file, &arguments.which) {
         Ok(problem) => problem,
         Err(message) => {
             let loose = Loose::of(&arguments.file).ok_or_else(|| message.clone())?;
@@ -119,9 +116,9 @@ fn listed(file: &Path) -> Result<Vec<Listed>, String> {
 }
 
 /// What a file of another program holds: its sketches, or the one of them.
-fn describe_sketches(file: &Path, sketch: Option<&str>) -> Result<(String, u8), String> {
+fn describe_sketches(file: &Path, which: &input::Which) -> Result<(String, u8), String> {
     let listed = listed(file)?;
-    if listed.len() != 1 && sketch.is_none() {
+    if listed.len() != 1 && which.sketch.is_none() {
         let mut text = format!(
             "{} in {}; take one with --sketch NAME\n",
             counted(listed.len(), "sketch"),
@@ -134,7 +131,7 @@ fn describe_sketches(file: &Path, sketch: Option<&str>) -> Result<(String, u8), 
         }
         return Ok((text, CLOSED));
     }
-    let (imported, _) = input::import(file, sketch)?;
+    let (imported, _) = input::import(file, which)?;
     let problem = &imported.problem;
     let mut text = format!("{}, read as\n", problem.name);
     let census = surplus(problem).unwrap_or_default();
@@ -208,7 +205,7 @@ impl Loose {
         let FileFault::Problem { error: fault, .. } = &*error.fault else {
             return None;
         };
-        let problem = input::load(file, None).ok()?.problem;
+        let problem = input::load(file, &Default::default()).ok()?.problem;
         let (found, standing) = Decomposition::led(&problem).ok()?;
         Some(Loose {
             fault: fault.to_string(),

@@ -42,9 +42,8 @@ pub struct Arguments {
     /// The folder of the store; it is made where there is none
     #[arg(long, value_name = "DIR")]
     store: PathBuf,
-    /// Which molecule of a file that holds several
-    #[arg(long, value_name = "NAME")]
-    sketch: Option<String>,
+    #[command(flatten)]
+    which: input::Which,
     /// Stop after so many seconds; the next run follows what is left
     #[arg(long, value_name = "S", value_parser = super::all::seconds)]
     time: Option<f64>,
@@ -183,10 +182,10 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
 
 fn read(arguments: &Arguments) -> Result<(Problem, Vec<Published>), String> {
     let is_toml = arguments.file.extension().is_some_and(|e| e == "toml");
-    if is_toml && arguments.sketch.is_none() {
+    if is_toml && arguments.which.sketch.is_none() && !arguments.which.heavy {
         return Problem::read_with_published(&arguments.file).map_err(|e| e.to_string());
     }
-    let loaded = input::load(&arguments.file, arguments.sketch.as_deref())?;
+    let loaded = input::load(&arguments.file, &arguments.which)?;
     let (problem, account) = input::whole(&arguments.file, &loaded)?;
     let clause = account.clause();
     if !clause.is_empty() {

@@ -21,22 +21,34 @@ const STANDARD_INPUT: &str = "standard input";
 pub struct Source {
     /// The problem file (TOML), or a sketch of SolveSpace (.slvs) or FreeCAD (.FCStd)
     pub file: PathBuf,
-    /// Which sketch of a file that holds several (`krawl check` lists them)
+    #[command(flatten)]
+    pub which: Which,
+}
+
+/// What of a file is read.
+#[derive(Clone, Default, clap::Args)]
+pub struct Which {
+    /// Which sketch or molecule of a file that holds several (`krawl check` lists them)
     #[arg(long, value_name = "NAME")]
     pub sketch: Option<String>,
+    /// Read a molecule without its hydrogens
+    ///
+    /// Files that are written have them, as each stands to the atoms near it in the file that was read: nothing is proved of them
+    #[arg(long, hide_short_help = true)]
+    pub heavy: bool,
 }
 
 impl Source {
     /// Reads it.
     pub fn load(&self) -> Result<Loaded, String> {
-        load(&self.file, self.sketch.as_deref())
+        load(&self.file, &self.which)
     }
 }
 
 /// Reads a problem file, or standard input for `-`, or a file of another program, whose `sketch` may be named. The
 /// text of the error says what is wrong, and where.
-pub fn read(file: &Path, sketch: Option<&str>) -> Result<Problem, String> {
-    let loaded = load(file, sketch)?;
+pub fn read(file: &Path, which: &Which) -> Result<Problem, String> {
+    let loaded = load(file, which)?;
     if is_sketch(file) {
         return completed(&loaded.problem).map_err(|e| format!("{}: {e}", file.display()));
     }
@@ -55,7 +67,7 @@ pub fn of_equations(file: &Path) -> Result<Problem, String> {
             "{}: problem files and systems of polynomials are read here, not sketches and molecules",
             file.display()
         )),
-        None => read(file, None),
+        None => read(file, &Which::default()),
     }
 }
 
@@ -117,11 +129,11 @@ pub struct Asked {
 
 /// Reads what a set of all solutions is to be about, with the signs that are asked for or, with `any_signs`, without.
 pub fn asked(
-    (file, sketch): (&Path, Option<&str>),
+    (file, which): (&Path, &Which),
     tolerance: Option<f64>,
     any_signs: bool,
 ) -> Result<Asked, String> {
-    let mut loaded = load(file, sketch)?.with_any_signs(any_signs);
+    let mut loaded = load(file, which)?.with_any_signs(any_signs);
     let imported = loaded.imported.as_mut();
     let skeleton = imported.and_then(|(imported, _)| imported.skeleton.take());
     let of = |(problem, made), surplus| Asked {
@@ -165,8 +177,8 @@ pub struct Loaded {
 
 /// Reads a sketch to be edited: a problem file, which may be under-constrained, or a file of another program, of which
 /// `sketch` names the sketch.
-pub fn load(file: &Path, sketch: Option<&str>) -> Result<Loaded, String> {
-    let loaded = load_again(file, sketch)?;
+pub fn load(file: &Path, which: &Which) -> Result<Loaded, String> {
+    let loaded = load_again(file, which)?;
     if let Some((imported, _)) = &loaded.imported
         && !imported.notes.is_empty()
     {
@@ -177,13 +189,16 @@ pub fn load(file: &Path, sketch: Option<&str>) -> Result<Loaded, String> {
 }
 
 /// The same of a file that was read before, of which nothing is said again.
-pub fn load_again(file: &Path, sketch: Option<&str>) -> Result<Loaded, String> {
+pub fn load_again(file: &Path, which: &Which) -> Result<Loaded, String> {
     let name = file.display().to_string();
     if format(file).is_none() {
-        if sketch.is_some() {
-            return Err(format!(
-                "{name}: --sketch is for files that hold several sketches or molecules"
-            ));
+        let option = match which {
+            Which { heavy: true, .. } => "--heavy is for molecules",
+            Which { sketch: None, .. } => "",
+            _ => "--sketch is for files that hold several sketches or molecules",
+        };
+        if !option.is_empty() {
+            return Err(format!("{name}: {option}"));
         }
         let (text, read) = match file == Path::new("-") {
             true => {
@@ -226,7 +241,7 @@ pub fn load_again(file: &Path, sketch: Option<&str>) -> Result<Loaded, String> {
             Err(error) => Err(error.to_string()),
         };
     }
-    let (imported, bytes) = import(file, sketch)?;
+    let (imported, bytes) = import(file, which)?;
     Ok(Loaded {
         problem: imported.problem.clone(),
         fault: None,
@@ -260,10 +275,15 @@ pub fn made(file: &Path) -> Option<Result<String, String>> {
 }
 
 /// Reads a sketch of another program's file.
-pub fn import(file: &Path, sketch: Option<&str>) -> Result<(Imported, Vec<u8>), String> {
+pub fn import(file: &Path, which: &Which) -> Result<(Imported, Vec<u8>), String> {
     let name = file.display().to_string();
     let bytes = bytes(file)?;
-    let imported = import::read(&name, &bytes, sketch).map_err(|error| error.to_string())?;
+    let read = match which.heavy {
+        true => import::read_heavy,
+        false => import::read,
+    };
+    let imported = read(&name, &bytes, which.sketch.as_deref());
+    let imported = imported.map_err(|error| error.to_string())?;
     Ok((imported, bytes))
 }
 

@@ -160,7 +160,7 @@ impl Take {
     /// Writes the figure that is wanted of those listed, if one is. Whether all went well; what did not is told.
     pub fn write(
         &self,
-        (file, sketch): (&Path, Option<&str>),
+        (file, which): (&Path, &input::Which),
         problem: &Problem,
         listed: Candidates,
         figure: impl Fn(u64) -> Result<Taken, String>,
@@ -169,7 +169,7 @@ impl Take {
             return true;
         };
         let done = self.number(problem, listed, &figure).and_then(|number| {
-            let bytes = rewritten((file, sketch), problem, &figure(number)?)?;
+            let bytes = rewritten((file, which), problem, &figure(number)?)?;
             Ok(Beside::new(out)?.write(&bytes))
         });
         done.unwrap_or_else(|error| {
@@ -221,11 +221,11 @@ impl Take {
 /// The file with the figure in it, in its own format. Points and objects are told by their names, as a problem that was made from the file's may have
 /// them in another order.
 fn rewritten(
-    (file, sketch): (&Path, Option<&str>),
+    (file, which): (&Path, &input::Which),
     problem: &Problem,
     taken: &Taken,
 ) -> Result<Vec<u8>, String> {
-    let loaded = input::load_again(file, sketch)?;
+    let loaded = input::load_again(file, which)?;
     let of_point = |name: &str| problem.points.iter().position(|p| p.name == name);
     let of_object = |name: &str| problem.objects.iter().position(|o| o.name == name);
     let points = loaded.problem.points.iter().map(|point| {

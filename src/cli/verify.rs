@@ -31,9 +31,8 @@ pub struct Arguments {
     ///
     /// A problem file (TOML), or a sketch of SolveSpace (.slvs) or FreeCAD (.FCStd)
     file: Option<PathBuf>,
-    /// Which sketch of a file that holds several (`krawl check` lists them)
-    #[arg(long, value_name = "NAME", requires = "file")]
-    sketch: Option<String>,
+    #[command(flatten)]
+    which: input::Which,
     /// Threads to use [default: one per processor]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
@@ -75,7 +74,7 @@ fn check(arguments: &Arguments) -> Result<u8, String> {
     let opened = contents(BufReader::new(file)).map_err(|error| format!("{name}: {error}"));
     let (contents, mut file) = opened?;
     let file_of = arguments.file.as_ref();
-    let of_file = file_of.map(|path| of_file(path, arguments.sketch.as_deref(), contents));
+    let of_file = file_of.map(|path| of_file(path, &arguments.which, contents));
     let of_file = of_file.transpose()?;
     let of_file = of_file.as_deref();
     if contents != Contents::Path {
@@ -133,10 +132,10 @@ type OfFile<'a> = Option<&'a [(Problem, Account)]>;
 /// the file, with what is held.
 fn of_file(
     path: &Path,
-    sketch: Option<&str>,
+    which: &input::Which,
     contents: Contents,
 ) -> Result<Vec<(Problem, Account)>, String> {
-    let loaded = input::load(path, sketch)?;
+    let loaded = input::load(path, which)?;
     let own = match contents {
         Contents::Path => input::provable(path, &loaded.problem).map(|(problem, mut account)| {
             loaded.add_left_out(&mut account, None);

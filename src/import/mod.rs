@@ -206,6 +206,23 @@ pub fn list(file: &str, bytes: &[u8]) -> Result<Vec<Listed>, ImportError> {
 /// # Errors
 /// If the file cannot be read, or does not say which sketch is meant.
 pub fn read(file: &str, bytes: &[u8], sketch: Option<&str>) -> Result<Imported, ImportError> {
+    read_with(file, bytes, sketch, false)
+}
+
+/// Reads a molecule without its hydrogens: [`rewrite`] puts them where they stand to the atoms near them in the file.
+///
+/// # Errors
+/// As of [`read`], and if the file is not one of molecules.
+pub fn read_heavy(file: &str, bytes: &[u8], sketch: Option<&str>) -> Result<Imported, ImportError> {
+    read_with(file, bytes, sketch, true)
+}
+
+fn read_with(
+    file: &str,
+    bytes: &[u8],
+    sketch: Option<&str>,
+    heavy: bool,
+) -> Result<Imported, ImportError> {
     let all = list(file, bytes)?;
     let index = match sketch {
         Some(name) => all.iter().position(|listed| listed.name == name),
@@ -226,12 +243,15 @@ pub fn read(file: &str, bytes: &[u8], sketch: Option<&str>) -> Result<Imported, 
         },
     })?;
     match Format::of(file) {
+        Some(Format::SolveSpace | Format::FreeCad) if heavy => {
+            Err("only molecules have hydrogens that can be left out".to_owned())
+        }
         Some(Format::SolveSpace) => slvs::read(bytes, index),
         #[cfg(feature = "freecad")]
         Some(Format::FreeCad) => freecad::read(bytes, index),
         #[cfg(not(feature = "freecad"))]
         Some(Format::FreeCad) => Err(NO_FREECAD.to_owned()),
-        Some(format) => molecule::read(bytes, format, index),
+        Some(format) => molecule::read(bytes, (format, index), heavy),
         None => return Err(ImportError::Format(file.to_owned())),
     }
     .map_err(|what| broken(file, what))

@@ -113,3 +113,78 @@ fn a_straight_part_has_no_torsion() {
 }
 
 const TORSION: f64 = 176.3743;
+
+/// Without its hydrogens a molecule keeps the numbers of its atoms and its side; files that are written have them, as they stand to the
+/// others.
+#[test]
+fn hydrogens_are_left_out_and_put_back() {
+    let text = "6\nbromochlorofluoromethanol\nC 0 0 0\nH -0.6 -0.62 -0.66\nF 0.8 0.75 -0.79\nCl -1.02 1.0 1.03\nO 0.9 -0.8 0.83\nH 1.7 -0.5 1.1\n";
+    let directory = tempfile::tempdir().unwrap();
+    let [file, out] = ["a.xyz", "b.xyz"].map(|name| directory.path().join(name));
+    std::fs::write(&file, text).unwrap();
+    let run = |arguments: &[&str]| -> String {
+        let file = file.to_str().unwrap();
+        let (code, said, error) = krawl(&[&[arguments[0], file], &arguments[1..]].concat());
+        assert_eq!(code, Some(0), "{said}{error}");
+        said + &error
+    };
+    let written = ["--out", out.to_str().unwrap()];
+    let places = |text: &str| -> Vec<[f64; 3]> {
+        let line = |line: &str| {
+            let mut numbers = line.split_whitespace().skip(1).map(|x| x.parse().unwrap());
+            [0, 1, 2].map(|_| numbers.next().unwrap())
+        };
+        text.lines().skip(2).map(line).collect()
+    };
+    let apart = |p: &[[f64; 3]], a: usize, b: usize| -> f64 {
+        let square = |k: usize| (p[a][k] - p[b][k]).powi(2);
+        (0..3).map(square).sum::<f64>().sqrt()
+    };
+    let volume = |p: &[[f64; 3]], [a, b, c]: [usize; 3]| -> f64 {
+        let [u, v, w] = [a, b, c].map(|q| [0, 1, 2].map(|k| p[q][k] - p[0][k]));
+        u[0] * (v[1] * w[2] - v[2] * w[1])
+            + u[1] * (v[2] * w[0] - v[0] * w[2])
+            + u[2] * (v[0] * w[1] - v[1] * w[0])
+    };
+    let before = places(text);
+    // A figure that is turned: every hydrogen is as far from the others as it was, on the same side.
+    let said = run(&["all", "--heavy", written[0], written[1]]);
+    assert!(
+        said.contains("was read without its hydrogens (2)"),
+        "{said}"
+    );
+    assert!(
+        said.contains("Complete, proved: 1 solution") && !said.contains("H2"),
+        "{said}"
+    );
+    let turned = places(&std::fs::read_to_string(&out).unwrap());
+    assert!(apart(&[before[0], turned[0]], 0, 1) + apart(&[before[2], turned[2]], 0, 1) > 0.1);
+    for (a, b) in [(0, 1), (1, 2), (1, 3), (1, 4), (5, 4), (5, 0), (5, 3)] {
+        let (old, new) = (apart(&before, a, b), apart(&turned, a, b));
+        assert!((old - new).abs() < 1e-5, "{a} {b}: {old} {new}");
+    }
+    for three in [[1, 2, 3], [2, 3, 4], [5, 3, 4]] {
+        let (old, new) = (volume(&before, three), volume(&turned, three));
+        assert!((old - new).abs() < 1e-4, "{three:?}: {old} {new}");
+    }
+    // A longer bond: each stays as far from the atom that it is bonded to.
+    run(&[
+        "edit",
+        "--heavy",
+        "--set",
+        "C1-O5=1.7",
+        written[0],
+        written[1],
+    ]);
+    let longer = places(&std::fs::read_to_string(&out).unwrap());
+    assert!((apart(&longer, 0, 4) - 1.7).abs() < 1e-6);
+    for (a, b) in [(0, 1), (4, 5)] {
+        let (old, new) = (apart(&before, a, b), apart(&longer, a, b));
+        assert!((old - new).abs() < 1e-6, "{a} {b}: {old} {new}");
+    }
+    let (code, _, error) = krawl(&["all", "problems/k33.toml", "--heavy"]);
+    assert!(
+        code == Some(2) && error.contains("--heavy is for molecules"),
+        "{error}"
+    );
+}

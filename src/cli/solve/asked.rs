@@ -27,7 +27,7 @@ fn is_loose(problem: &Problem) -> bool {
 impl Arguments {
     /// What is asked of a file.
     pub(super) fn read(&self, file: &Path) -> Result<Asked, String> {
-        let sketch = self.sketch.as_deref();
+        let which = &self.which;
         let whole = |problem| Asked {
             problem,
             is_by_blocks: false,
@@ -35,9 +35,9 @@ impl Arguments {
         };
         let is_whole = self.mode == Mode::Float || self.wants_path().is_some();
         if is_whole && input::is_sketch(file) {
-            return input::read(file, sketch).map(whole);
+            return input::read(file, which).map(whole);
         }
-        let loaded = input::load(file, sketch)?.with_any_signs(self.any_signs);
+        let loaded = input::load(file, which)?.with_any_signs(self.any_signs);
         let is_in_its_frame = fix_frame(&loaded.problem);
         if let Some(surplus) = loaded.surplus()
             && (self.mode == Mode::Certified || loaded.fault.is_none())

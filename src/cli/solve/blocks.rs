@@ -164,7 +164,7 @@ impl Arguments {
             first: *first,
             is_all: true,
         };
-        let from = (file, self.sketch.as_deref());
+        let from = (file, &self.which);
         self.take.write(from, problem, listed, |number| {
             let (points, objects) = figures.figure(number);
             Ok(Taken {

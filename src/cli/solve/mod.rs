@@ -51,9 +51,8 @@ pub struct Arguments {
     /// Sketches of SolveSpace (.slvs) and FreeCAD (.FCStd); molecules (.xyz, .mol, .sdf, .pdb, .ent)
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
-    /// Which sketch or molecule of a file (`krawl check` lists them)
-    #[arg(long, value_name = "NAME")]
-    sketch: Option<String>,
+    #[command(flatten)]
+    which: super::input::Which,
     /// Only the solution to which the sketch moves without a fold
     ///
     /// Exit code 0 if there is one, 3 if the path turns back before, 1 if that could not be proved, as in float mode.

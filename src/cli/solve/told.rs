@@ -259,7 +259,7 @@ impl Told<'_> {
             first: direct.filter(|_| arguments.first).map(|k| k as u64),
             is_all: true,
         };
-        let from = (file, arguments.sketch.as_deref());
+        let from = (file, &arguments.which);
         let figure = |number| Taken::of(problem, &outcome.solutions[number as usize], false);
         self.results
             .note(arguments.take.write(from, problem, candidates, figure));

@@ -16,6 +16,7 @@
 
 mod chirality;
 mod hold;
+mod hydrogens;
 mod pdb;
 mod skeleton;
 
@@ -24,6 +25,7 @@ use crate::complete::{Spare, Surplus};
 use crate::problem::{Decimal, Distance, Orientation, Problem, Target};
 use chirality::stereocentres;
 use hold::{Held, hold};
+use hydrogens::Hydrogens;
 pub use skeleton::{Conformer, Skeleton};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -40,6 +42,8 @@ pub struct Places {
     format: Format,
     /// The line of each atom.
     lines: Vec<usize>,
+    /// Atoms that were left out.
+    hydrogens: Hydrogens,
 }
 
 /// A molecule as it is read.
@@ -49,6 +53,38 @@ struct Molecule<'a> {
     bonds: Option<Vec<[usize; 2]>>,
     /// See [`Imported::notes`].
     notes: Vec<String>,
+}
+
+impl Molecule<'_> {
+    /// Leaves its hydrogens out, of the places and the numbers of its atoms as well.
+    fn leave_hydrogens(
+        &mut self,
+        places: &mut Vec<[f64; 3]>,
+        numbers: &mut Vec<usize>,
+    ) -> Hydrogens {
+        let is_one: Vec<bool> = self
+            .atoms
+            .iter()
+            .map(|atom| element(atom.0) == "H")
+            .collect();
+        let all = (0..places.len()).filter(|&a| is_one[a]);
+        let all: Vec<(usize, [f64; 3])> = all.map(|a| (self.atoms[a].2, places[a])).collect();
+        if !all.is_empty() {
+            self.notes
+                .push(format!("without its hydrogens ({})", all.len()));
+        }
+        let stays = |a: &usize| !is_one[*a];
+        let kept: Vec<usize> = (0..places.len()).filter(stays).collect();
+        self.atoms = kept.iter().map(|&a| self.atoms[a]).collect();
+        *places = kept.iter().map(|&a| places[a]).collect();
+        *numbers = kept.iter().map(|&a| numbers[a]).collect();
+        if let Some(bonds) = &mut self.bonds {
+            bonds.retain(|ends| ends.iter().all(stays));
+            let new = |a: usize| kept.partition_point(|&b| b < a);
+            bonds.iter_mut().for_each(|ends| *ends = ends.map(new));
+        }
+        Hydrogens::new(all, places.clone())
+    }
 }
 
 /// The text of a file. Comments that are no UTF-8 are taken for Latin-1; so the second is whether they were.
@@ -279,17 +315,15 @@ fn radius(symbol: &str) -> Option<f64> {
         .map(|(_, radius)| radius)
 }
 
-pub fn read(bytes: &[u8], format: Format, index: usize) -> Result<Imported, String> {
+/// Reads a molecule, by its place in the file; with `heavy` without its hydrogens.
+pub fn read(
+    bytes: &[u8],
+    (format, index): (Format, usize),
+    heavy: bool,
+) -> Result<Imported, String> {
     let (text, _) = text(bytes);
-    let molecule = molecules(&text, format)?.swap_remove(index);
-    let n = molecule.atoms.len();
-    if !(3..=MOST_ATOMS).contains(&n) {
-        return Err(format!(
-            "{} has {n} atoms; 3 to {MOST_ATOMS} are read",
-            molecule.name
-        ));
-    }
-    let mut places = Vec::with_capacity(n);
+    let mut molecule = molecules(&text, format)?.swap_remove(index);
+    let mut places = Vec::with_capacity(molecule.atoms.len());
     for (_, coordinates, line) in &molecule.atoms {
         let mut place = [0.0f64; 3];
         for (out, text) in place.iter_mut().zip(coordinates) {
@@ -298,6 +332,23 @@ pub fn read(bytes: &[u8], format: Format, index: usize) -> Result<Imported, Stri
                 .ok_or_else(|| format!("line {}: `{text}` is no coordinate", line + 1))?;
         }
         places.push(place);
+    }
+    let mut numbers: Vec<usize> = (1..=places.len()).collect();
+    let hydrogens = match heavy {
+        true => molecule.leave_hydrogens(&mut places, &mut numbers),
+        false => Hydrogens::default(),
+    };
+    let n = molecule.atoms.len();
+    if !(3..=MOST_ATOMS).contains(&n) {
+        let what = if heavy {
+            "atoms but hydrogens"
+        } else {
+            "atoms"
+        };
+        return Err(format!(
+            "{} has {n} {what}; 3 to {MOST_ATOMS} are read",
+            molecule.name
+        ));
     }
     let apart = |a: usize, b: usize| -> f64 {
         let square: f64 = (0..3).map(|k| (places[a][k] - places[b][k]).powi(2)).sum();
@@ -326,7 +377,10 @@ pub fn read(bytes: &[u8], format: Format, index: usize) -> Result<Imported, Stri
         .flat_map(|b| (0..b).map(move |a| (a, b)))
         .find(|&(a, b)| apart(a, b) < 1e-3)
     {
-        return Err(format!("atoms {} and {} are in one place", a + 1, b + 1));
+        return Err(format!(
+            "atoms {} and {} are in one place",
+            numbers[a], numbers[b]
+        ));
     }
     let (held, told) = hold(&places, &bonds).ok_or_else(|| {
         format!(
@@ -335,7 +389,7 @@ pub fn read(bytes: &[u8], format: Format, index: usize) -> Result<Imported, Stri
         )
     })?;
     let names: Vec<String> = (0..n)
-        .map(|k| format!("{}{}", element(molecule.atoms[k].0), k + 1))
+        .map(|k| format!("{}{}", element(molecule.atoms[k].0), numbers[k]))
         .collect();
     let length = |[a, b]: [usize; 2]| format!("{:.6}", apart(a, b));
     let reading = Reading::new(&held, &told, &names);
@@ -398,6 +452,7 @@ pub fn read(bytes: &[u8], format: Format, index: usize) -> Result<Imported, Stri
         places: AllPlaces::Molecule(Places {
             format,
             lines: molecule.atoms.iter().map(|atom| atom.2).collect(),
+            hydrogens,
         }),
         sources: Vec::new(),
     })
@@ -494,7 +549,13 @@ pub fn rewrite(places: &Places, bytes: &[u8], figure: &Figure) -> Result<Vec<u8>
     let body = text.trim_start_matches('\u{feff}');
     let mark = &text[..text.len() - body.len()];
     let mut lines: Vec<String> = body.split('\n').map(str::to_owned).collect();
-    for (&line, place) in places.lines.iter().zip(figure.points) {
+    let atoms = places
+        .lines
+        .iter()
+        .copied()
+        .zip(figure.points.iter().copied());
+    for (line, place) in atoms.chain(places.hydrogens.placed(figure.points)) {
+        let place = &place;
         let old = lines
             .get_mut(line)
             .ok_or("an atom is missing: this is another file")?;
@@ -580,7 +641,7 @@ mod tests {
 
     #[test]
     fn a_ring_is_held_by_its_bonds_angles_and_torsions() {
-        let ring = read(CHAIR.as_bytes(), Format::Xyz, 0).unwrap();
+        let ring = read(CHAIR.as_bytes(), (Format::Xyz, 0), false).unwrap();
         // 6 bonds and 6 angles are just enough.
         assert_eq!(ring.problem.distances.len(), 12);
         assert_eq!(ring.problem.distance_name(0).len(), "C1-C2".len());
@@ -609,7 +670,9 @@ mod tests {
                 flat += &format!("{element} {x:.6} {y:.6} 0\n");
             }
         }
-        let ring = read(flat.as_bytes(), Format::Xyz, 0).unwrap().problem;
+        let ring = read(flat.as_bytes(), (Format::Xyz, 0), false)
+            .unwrap()
+            .problem;
         let kinds = |problem: &Problem, kind: &str| {
             let all = problem.constraints.iter();
             all.filter(|c| c.kind == kind).count()
@@ -619,7 +682,9 @@ mod tests {
         assert_eq!(kinds(&ring, "coplanar"), 9);
         let straight = "7\npropyne\nC 0 0 0\nC 1.46 0 0\nC 2.67 0 0\nH 3.73 0 0\nH -0.37 1.02 0.1\n\
                         H -0.37 -0.6 0.83\nH -0.37 -0.42 -0.93\n";
-        let chain = read(straight.as_bytes(), Format::Xyz, 0).unwrap().problem;
+        let chain = read(straight.as_bytes(), (Format::Xyz, 0), false)
+            .unwrap()
+            .problem;
         assert_eq!(kinds(&chain, "collinear"), 2);
         assert_eq!(chain.distances.len(), 3 * 7 - 6 - 4);
     }
@@ -628,7 +693,7 @@ mod tests {
     fn files_as_they_are_found() {
         let ammonia = "4\nammonia, \u{e5}ngstr\u{f6}m\n7\t0 0 1.0D-01\nH1 0.94 0 -2.8*^-1\nh -0.47 0.81 -0.28\nH -0.47 -0.81 -0.28";
         let latin: Vec<u8> = ammonia.chars().map(|c| c as u8).collect();
-        let read_it = |bytes: &[u8]| read(bytes, Format::Xyz, 0).unwrap();
+        let read_it = |bytes: &[u8]| read(bytes, (Format::Xyz, 0), false).unwrap();
         let found = read_it(&latin);
         assert_eq!(found.problem.points[0].name, "N1");
         assert_eq!(found.problem.distances.len(), 6);
@@ -651,7 +716,7 @@ mod tests {
         // A molfile without columns and without an end.
         let loose = "x\n\n\n 4 3 0 V2000\n 0 0 0.1 N\n0.94 0 -0.28 H\n-0.47 0.81 -0.28 H\n-0.47 -0.81 -0.28 H\n\
                      1 2 1\n1 3 1\n1 4 1\n";
-        let found = read(loose.as_bytes(), Format::Sdf, 0).unwrap();
+        let found = read(loose.as_bytes(), (Format::Sdf, 0), false).unwrap();
         assert_eq!(found.problem.distances.len(), 6);
         for bad in [
             "3\n\nC nan 0 0\nC 1 0 0\nC 0 1 0",
@@ -659,7 +724,10 @@ mod tests {
             "3\n\nC 0 0 0\nC 0 0 0\nC 0 1 0",
             "99999999999\n\nC",
         ] {
-            assert!(read(bad.as_bytes(), Format::Xyz, 0).is_err(), "{bad}");
+            assert!(
+                read(bad.as_bytes(), (Format::Xyz, 0), false).is_err(),
+                "{bad}"
+            );
         }
     }
 
@@ -680,9 +748,9 @@ mod tests {
         text += "M  END\n$$$$\n";
         let listed = list(text.as_bytes(), Format::Sdf).unwrap();
         assert_eq!((listed[0].drawn, listed[0].constraints), (6, 6));
-        let ring = read(text.as_bytes(), Format::Sdf, 0).unwrap();
+        let ring = read(text.as_bytes(), (Format::Sdf, 0), false).unwrap();
         assert_eq!(ring.problem.name, "ring");
         assert_eq!(ring.problem.distances.len(), 12);
-        assert!(read(b"x\n\n\nnothing", Format::Sdf, 0).is_err());
+        assert!(read(b"x\n\n\nnothing", (Format::Sdf, 0), false).is_err());
     }
 }

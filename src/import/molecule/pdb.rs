@@ -241,7 +241,7 @@ mod tests {
     }
 
     fn chain(text: &str, index: usize) -> Result<Imported, String> {
-        read(text.as_bytes(), Format::Pdb, index)
+        read(text.as_bytes(), (Format::Pdb, index), false)
     }
 
     fn names(of: &Imported) -> Vec<&str> {
