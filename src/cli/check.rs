@@ -445,7 +445,7 @@ fn understood(problem: &Problem) -> Vec<(&'static str, String)> {
         let name = problem.constraint_name(index);
         let read = krawl::constraint::read_as(problem, index);
         let read = read.map_or_else(String::new, |read| format!("here of {read}: "));
-        let meaning = kind.meaning();
+        let meaning = kind.meaning;
         rows.push(("constraint", format!("{name} ({read}{meaning})")));
     }
     for index in 0..problem.orientations.len() {

@@ -1,7 +1,7 @@
 //! A sketch as it is read, in krawl's words.
 
 use super::{Imported, Places};
-use crate::constraint::KINDS;
+use crate::constraint::order_of_kind;
 use crate::order::InOrder;
 use crate::places::Each as _;
 use crate::problem::{
@@ -322,8 +322,8 @@ impl Drawing {
         }
         self.hold();
         self.snap();
-        let order = |kind: &str| KINDS.iter().position(|k| k.key() == kind);
-        self.constraints.order_by_key(|(c, _)| order(&c.kind));
+        self.constraints
+            .order_by_key(|(c, _)| order_of_kind(&c.kind));
         let coordinate = |x: f64| decimal(x).unwrap_or_else(|| Decimal::from(0));
         let points = self.places.iter().map(|(name, [x, y])| Point {
             name: name.clone(),

@@ -2,12 +2,12 @@
 //! and for the jump.
 
 use crate::common::certificate::Certificate;
+use crate::common::figures::are_congruent;
 use krawl::certificate::{
     EndClaim, Flaw, Outcome, Record, Settings, SolutionClaim, TubeClaim, Verdict, verify,
 };
 use krawl::problem::Problem;
 use krawl::system::Homotopy;
-use krawl::track::congruence_classes;
 use nalgebra::{DMatrix, DVector};
 
 /// A point with the unit tangent there.
@@ -32,14 +32,19 @@ impl Plain {
         DVector::from_iterator(self.n, x.chain([0.0]))
     }
 
+    /// A coordinate of a point, which is zero where it is not free.
+    fn coordinate(&self, z: &DVector<f64>, place: usize) -> f64 {
+        match self.homotopy.gauge.variable[place] {
+            i if i < self.n - 1 => z[i],
+            _ => 0.0,
+        }
+    }
+
     /// F(z), and [J(z); c].
     fn system(&self, z: &DVector<f64>, c: &DVector<f64>) -> (DVector<f64>, DMatrix<f64>) {
         let (h, m, d) = (&self.homotopy, self.n - 1, self.homotopy.dimension);
         let (mut f, mut j) = (DVector::zeros(self.n), DMatrix::zeros(self.n, self.n));
-        let value = |place: usize| match h.gauge.variable[place] {
-            i if i < m => z[i],
-            _ => 0.0,
-        };
+        let value = |place: usize| self.coordinate(z, place);
         for (e, (edge, length)) in h.edges.iter().zip(&h.lengths).enumerate() {
             let a = length.value(z[m]);
             f[e] = -0.5 * a * a;
@@ -239,17 +244,26 @@ impl Plain {
             }
         }
         let h = &self.homotopy;
-        let scattered = figures.iter().map(|figure| {
-            let mut places = vec![0.0; h.points * h.dimension];
-            h.scatter(&figure.as_slice()[..self.n - 1], &mut places);
-            let point = |p: &[f64]| std::array::from_fn(|axis| p.get(axis).copied().unwrap_or(0.0));
-            places.chunks(h.dimension).map(point).collect()
+        let d = h.dimension;
+        let places = |figure: &DVector<f64>| -> Vec<[f64; 3]> {
+            let at = |place| self.coordinate(figure, place);
+            let point = |p| std::array::from_fn(|k| if k < d { at(p * d + k) } else { 0.0 });
+            (0..h.points).map(point).collect()
+        };
+        // The first figure of each class.
+        let mut known: Vec<Vec<[f64; 3]>> = Vec::new();
+        let classes = figures.iter().map(places).map(|figure| {
+            let class = known.iter().position(|k| are_congruent(k, &figure, 1e-8));
+            class.unwrap_or_else(|| {
+                known.push(figure);
+                known.len() - 1
+            }) as u32
         });
-        let classes = congruence_classes(&scattered.collect::<Vec<_>>(), 1e-8);
+        let classes = classes.collect();
         records.push(Record::End(EndClaim {
             ending: krawl::certificate::Ending::Complete,
             tubes: points.len() as u64,
-            classes: classes.into_iter().map(|c| c as u32).collect(),
+            classes,
         }));
         let certificate = Certificate {
             program: "a float run".into(),

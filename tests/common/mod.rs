@@ -6,6 +6,7 @@ pub mod certificate;
 pub mod covers;
 pub mod edits;
 pub mod exact;
+pub mod figures;
 pub mod hard;
 pub mod mixed;
 pub mod moves;

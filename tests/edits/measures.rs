@@ -439,14 +439,11 @@ fn come_to_limits(case: &Case, dimension: usize, random: &mut Random, wanted: us
 
 fn campaign(seed: u64, wanted: usize) {
     let cases = cases();
-    for kind in KINDS
-        .iter()
-        .filter(|kind| kind.measure() != Measure::Nothing)
-    {
+    for kind in KINDS.iter().filter(|kind| kind.measure != Measure::Nothing) {
         assert!(
-            cases.iter().any(|case| case.kind == kind.key()),
+            cases.iter().any(|case| case.kind == kind.key),
             "{} is not tried",
-            kind.key()
+            kind.key
         );
     }
     let mut random = Random(seed);

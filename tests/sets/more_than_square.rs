@@ -1,6 +1,7 @@
 //! Figures with more distances than unknowns: what is said of those that were left out, against plain floats and against least squares on
 //! all distances from many starts. And what one exact step decides.
 
+use crate::common::figures::{are_congruent, distance};
 use crate::common::wanted;
 use krawl::complete::{Complete, Options, Status, Surplus, all, has_equations_to_spare};
 use krawl::interval::Interval;
@@ -135,11 +136,6 @@ impl Asked {
     }
 }
 
-fn distance(at: &[[f64; 3]], [a, b]: [usize; 2]) -> f64 {
-    let squared: f64 = (0..3).map(|k| (at[a][k] - at[b][k]).powi(2)).sum();
-    squared.sqrt()
-}
-
 /// Solves equations whose matrix is positive.
 fn eliminate(mut a: Vec<Vec<f64>>) -> Vec<f64> {
     let m = a.len();
@@ -156,12 +152,6 @@ fn eliminate(mut a: Vec<Vec<f64>>) -> Vec<f64> {
 
 fn middles(points: &[[Interval; 3]]) -> Vec<[f64; 3]> {
     points.iter().map(|p| p.map(|x| x.mid())).collect()
-}
-
-/// Whether all points of two figures are as far apart.
-fn are_congruent(one: &[[f64; 3]], other: &[[f64; 3]], tolerance: f64) -> bool {
-    let mut pairs = (0..one.len()).flat_map(|b| (0..b).map(move |a| [a, b]));
-    pairs.all(|pair| (distance(one, pair) - distance(other, pair)).abs() < tolerance)
 }
 
 /// Every verdict of one figure. True: the set was complete.

@@ -5,6 +5,7 @@
 //! caller with [`crate::interval::rounding`], from the operation counts stated with each kernel.
 
 mod axes;
+mod decompose;
 mod inverse;
 mod large;
 mod least;
@@ -15,6 +16,7 @@ pub mod rstructure;
 mod span;
 
 pub use axes::with_axes;
+pub use decompose::{Block, Blocks, LeftOver};
 pub use inverse::{Inverter, Singular};
 pub use large::{LARGE, Workers};
 pub use least::{

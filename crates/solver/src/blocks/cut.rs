@@ -104,15 +104,13 @@ pub(crate) fn in_words(problem: &Problem, (owner, fault): (Owner, Fault)) -> Str
     }
 }
 
-impl Blocks {
-    /// The blocks of a square system of rows and of unknowns that are held. `None` as in [`Blocks::new`].
-    pub(crate) fn of(used: &[Used], system: &System) -> Option<Self> {
-        let of = used.iter().map(|used| match *used {
-            Used::Row(row) => system.rows[row].unknowns.clone(),
-            Used::Held(u) => vec![u],
-        });
-        Blocks::new(&of.collect::<Vec<_>>(), system.unknowns.len())
-    }
+/// The blocks of a square system of rows and of unknowns that are held. `None`: there are none, see [`Blocks::new`].
+pub(crate) fn blocks_of(used: &[Used], system: &System) -> Option<Blocks> {
+    let of = used.iter().map(|used| match *used {
+        Used::Row(row) => system.rows[row].unknowns.clone(),
+        Used::Held(u) => vec![u],
+    });
+    Blocks::new(&of.collect::<Vec<_>>(), system.unknowns.len()).ok()
 }
 
 /// The equations of a choice, and what is held in it.
@@ -178,7 +176,7 @@ impl Cut {
             singular = Some(place);
         }
         let used = square(&choice);
-        let blocks = Blocks::of(&used, &system)
+        let blocks = blocks_of(&used, &system)
             .ok_or("its equations do not match its unknowns: the sketch is singular")?;
         let is_exact = is_exact(&blocks, &used, &system);
         let Lowered { tail, record, .. } = lowered;

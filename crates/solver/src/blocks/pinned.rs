@@ -1,6 +1,6 @@
 //! A figure up to motions, held in the frame of its sketch.
 
-use crate::constraint::KINDS;
+use crate::constraint::order_of_kind;
 use crate::interval::vector::cross;
 use crate::order::InOrder;
 use crate::places::{Each as _, array};
@@ -43,8 +43,7 @@ pub fn pinned(problem: &Problem) -> Option<Problem> {
             hold_axis(third, largest(normal)?);
         }
     }
-    let order = |kind: &str| KINDS.iter().position(|k| k.key() == kind);
-    out.constraints.order_by_key(|c| order(&c.kind));
+    out.constraints.order_by_key(|c| order_of_kind(&c.kind));
     out.labels.clear();
     out.homotopy.reference.clear();
     Some(out)

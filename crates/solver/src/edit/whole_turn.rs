@@ -2,7 +2,7 @@
 
 use super::setting::{Setting, SettingError, is_led_alone, measure, number};
 use super::write::direction;
-use crate::constraint::{Arguments, KINDS, LineName, Measure, is_opposite_nearer};
+use crate::constraint::{Arguments, LineName, Measure, is_opposite_nearer, order_of_kind};
 use crate::interval::Real;
 use crate::order::InOrder;
 use crate::places::Each as _;
@@ -232,7 +232,7 @@ fn with_turns(
     };
     let mut all: Vec<(usize, Constraint)> =
         problem.constraints.iter().enumerate().map(turned).collect();
-    all.order_by_key(|(_, c)| KINDS.iter().position(|kind| kind.key() == c.kind));
+    all.order_by_key(|(_, c)| order_of_kind(&c.kind));
     let mut places = vec![0; all.len()];
     for (now, &(was, _)) in all.iter().enumerate() {
         places[was] = now;

@@ -37,8 +37,8 @@ pub struct Fixes {
 impl Fixes {
     /// What is fixed by the distance from a coordinate axis, if one is named: a direction, and the place along all
     /// other axes.
-    pub fn beside_axis(items: &[Item]) -> Self {
-        let axis = items.iter().find_map(|item| match item {
+    pub fn beside_axis(_: &Problem, of: &Constraint) -> Self {
+        let axis = of.items.iter().find_map(|item| match item {
             Item::Axis(k) => Some(*k),
             _ => None,
         });
@@ -47,49 +47,62 @@ impl Fixes {
             axes: array(|k| axis.is_some_and(|axis| axis != k)),
         }
     }
-}
 
-/// A kind of constraint.
-pub trait Kind: Sync {
-    /// The key under `[constraints]` in problem files.
-    fn key(&self) -> &'static str;
-
-    /// What it says, for people, in one sentence.
-    fn meaning(&self) -> &'static str;
-
-    /// What an entry of it names, for messages: `two lines, or two planes`.
-    fn takes(&self) -> &'static str;
-
-    /// What its number is.
-    fn measure(&self) -> Measure {
-        Measure::Nothing
+    /// A direction, and no place.
+    pub fn direction(_: &Problem, _: &Constraint) -> Self {
+        Fixes {
+            frame: true,
+            ..Fixes::default()
+        }
     }
 
-    /// What the number of one entry is, where that depends on what it names.
-    fn measure_of(&self, _items: Arguments) -> Measure {
-        self.measure()
-    }
-
-    /// What of the frame it fixes: unless it says more, directions, where it names a coordinate axis.
-    fn fixes(&self, _problem: &Problem, of: &Constraint) -> Fixes {
+    /// A direction, where a coordinate axis is named, and no place.
+    fn named_direction(_: &Problem, of: &Constraint) -> Self {
         Fixes {
             frame: of.items.iter().any(|item| matches!(item, Item::Axis(_))),
             ..Fixes::default()
         }
     }
+}
 
+/// A kind of constraint.
+#[derive(Clone, Copy)]
+pub struct Kind {
+    /// The key under `[constraints]` in problem files.
+    pub key: &'static str,
+    /// What it says, for people, in one sentence.
+    pub meaning: &'static str,
+    /// What an entry of it names, for messages: `two lines, or two planes`.
+    pub takes: &'static str,
+    /// What its number is.
+    pub measure: Measure,
+    /// What the number of one entry is, where that depends on what it names.
+    pub measure_of: Option<fn(Arguments) -> Measure>,
+    /// What of the frame a constraint of it fixes: unless it says more, directions, where it names a coordinate axis.
+    pub fixes: fn(&Problem, &Constraint) -> Fixes,
     /// What to say in place of an entry whose number is zero, where it cannot be: a hint for messages.
-    fn instead_of_zero(&self, _items: Arguments) -> Option<&'static str> {
-        None
-    }
-
+    pub instead_of_zero: fn(Arguments) -> Option<&'static str>,
     /// What lines and planes an entry is read as being of, where points stand for them; for people.
-    fn read_as(&self, _items: Arguments) -> Option<String> {
-        None
-    }
-
+    pub read_as: fn(Arguments) -> Option<String>,
     /// Its unknowns and equations.
-    fn lower(&self, of: Given, low: &mut Lowering) -> Result<(), Fault>;
+    pub lower: fn(Given, &mut Lowering) -> Result<(), Fault>,
+}
+
+impl Kind {
+    /// What most kinds say of themselves, of one with these unknowns and equations.
+    pub const fn lowered_by(lower: fn(Given, &mut Lowering) -> Result<(), Fault>) -> Self {
+        Kind {
+            key: "",
+            meaning: "",
+            takes: "",
+            measure: Measure::Nothing,
+            measure_of: None,
+            fixes: Fixes::named_direction,
+            instead_of_zero: |_| None,
+            read_as: |_| None,
+            lower,
+        }
+    }
 }
 
 /// One constraint of a kind.

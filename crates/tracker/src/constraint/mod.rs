@@ -73,15 +73,23 @@ use kind::Given;
 use lowering::{Lowering, Start};
 
 /// The kind that has this key in problem files.
-pub fn kind(key: &str) -> Option<&'static dyn Kind> {
-    KINDS.iter().copied().find(|kind| kind.key() == key)
+pub fn kind(key: &str) -> Option<&'static Kind> {
+    KINDS.iter().find(|kind| kind.key == key)
+}
+
+/// Where among [`KINDS`] the kind is that has this key: problems have their constraints in this order.
+pub fn order_of_kind(key: &str) -> Option<usize> {
+    KINDS.iter().position(|kind| kind.key == key)
 }
 
 /// What the number of a constraint of a problem is, by the constraint's index.
 pub fn measure_of(problem: &Problem, index: usize) -> Measure {
     let constraint = &problem.constraints[index];
     let items = Arguments::new(problem, &constraint.items);
-    kind(&constraint.kind).map_or(Measure::Nothing, |kind| kind.measure_of(items))
+    kind(&constraint.kind).map_or(Measure::Nothing, |kind| match kind.measure_of {
+        Some(measure_of) => measure_of(items),
+        None => kind.measure,
+    })
 }
 
 /// What a constraint of a problem is read as being of, where points in it stand for lines or planes: `the line
@@ -90,7 +98,7 @@ pub fn read_as(problem: &Problem, index: usize) -> Option<String> {
     let constraint = &problem.constraints[index];
     let items = Arguments::new(problem, &constraint.items);
     match items.left() > 2 {
-        true => kind(&constraint.kind)?.read_as(items),
+        true => (kind(&constraint.kind)?.read_as)(items),
         false => None,
     }
 }
@@ -276,7 +284,7 @@ fn try_lower_from<'a>(
             items: Arguments::new(problem, &constraint.items),
             value: constraint.value.as_ref(),
         };
-        kind.lower(given, &mut low).map_err(fail)?;
+        (kind.lower)(given, &mut low).map_err(fail)?;
     }
     let own = objects + problem.constraints.len();
     low.begin(own);
@@ -331,7 +339,7 @@ pub fn frame_of(problem: &Problem) -> Fixes {
     }
     let kinds = problem.constraints.iter();
     kinds
-        .filter_map(|c| Some(kind(&c.kind)?.fixes(problem, c)))
+        .filter_map(|c| Some((kind(&c.kind)?.fixes)(problem, c)))
         .fold(Fixes::default(), |all, one| Fixes {
             frame: all.frame || one.frame,
             axes: array(|k| all.axes[k] || one.axes[k]),
@@ -339,7 +347,7 @@ pub fn frame_of(problem: &Problem) -> Fixes {
 }
 
 /// Whether a constraint has a number where its kind has, in the kind's range.
-fn check_value(kind: &dyn Kind, problem: &Problem, index: usize) -> Result<(), Fault> {
+fn check_value(kind: &Kind, problem: &Problem, index: usize) -> Result<(), Fault> {
     let value = &problem.constraints[index].value;
     let measure = measure_of(problem, index);
     let wanted = match measure {
@@ -376,7 +384,7 @@ fn check_value(kind: &dyn Kind, problem: &Problem, index: usize) -> Result<(), F
                      number, in the same words",
                 ),
                 Measure::Degrees => Some("for 0 and 180 degrees say `parallel` or `collinear`"),
-                _ if number.is_zero() => kind.instead_of_zero(items),
+                _ if number.is_zero() => (kind.instead_of_zero)(items),
                 _ => None,
             };
             let hint = hint.map(|hint| format!(": {hint}")).unwrap_or_default();

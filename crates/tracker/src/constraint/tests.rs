@@ -364,8 +364,8 @@ fn the_documents_examples() {
     }
     for kind in super::KINDS {
         let (begin, end) = (
-            format!("| `{}` | `", kind.key()),
-            format!("` | {} |", kind.meaning()),
+            format!("| `{}` | `", kind.key),
+            format!("` | {} |", kind.meaning),
         );
         let row = text.lines().find_map(|line| line.strip_prefix(&begin));
         let entry = row.and_then(|row| row.strip_suffix(&end));
@@ -376,12 +376,12 @@ fn the_documents_examples() {
         let has_number = last.is_some_and(|last| last.is_integer() || last.is_float());
         assert_eq!(
             has_number,
-            kind.measure() != super::Measure::Nothing,
+            kind.measure != super::Measure::Nothing,
             "{entry}"
         );
-        let tested = ["z", "dz", "dy", "dx"].contains(&kind.key())
-            || kinds.iter().any(|used| used == kind.key());
-        assert!(tested, "no example has {}", kind.key());
+        let tested = ["z", "dz", "dy", "dx"].contains(&kind.key)
+            || kinds.iter().any(|used| used == kind.key);
+        assert!(tested, "no example has {}", kind.key);
     }
     let table = text.split("<!-- kinds -->").nth(1).unwrap();
     let rows = table.split("<!-- /kinds -->").next().unwrap().lines();

@@ -240,7 +240,7 @@ impl Problem {
                 index,
                 name: self.constraint_name(index),
                 fault,
-                takes: constraint::kind(&self.constraints[index].kind).map_or("", |k| k.takes()),
+                takes: constraint::kind(&self.constraints[index].kind).map_or("", |k| k.takes),
             },
             Some((Owner::Object(index), false)) => ProblemError::System {
                 place: Place::Object(index),
@@ -475,7 +475,7 @@ impl ProblemBuilder {
                     all.map(|index| (index, &problem.constraints[index]))
                         .find(|(_, c)| {
                             let kind = constraint::kind(&c.kind);
-                            kind.is_some_and(|kind| kind.fixes(&problem, c).frame)
+                            kind.is_some_and(|kind| (kind.fixes)(&problem, c).frame)
                         });
                 let name = fixing.map(|(index, _)| problem.constraint_name(index));
                 let name = name.map_or("a body with joints".to_owned(), |name| format!("`{name}`"));

@@ -372,10 +372,10 @@ impl ProblemBuilder {
         );
         let mut drafts = Vec::with_capacity(self.constraints.len());
         for draft in &self.constraints {
-            let order = KINDS.iter().position(|kind| kind.key() == draft.kind);
+            let order = constraint::order_of_kind(&draft.kind);
             let order = order.ok_or_else(|| ProblemError::UnknownKind {
                 kind: draft.kind.chars().take(MAX_NAME).collect(),
-                nearest: nearest(&draft.kind, &mut KINDS.iter().map(|kind| kind.key())),
+                nearest: nearest(&draft.kind, &mut KINDS.iter().map(|kind| kind.key)),
             })?;
             drafts.push((order, draft));
         }
@@ -579,7 +579,7 @@ pub(super) fn check_names(problem: &super::Problem) -> Result<(), ProblemError> 
                 index,
                 name: constraint.kind.clone(),
                 fault: "it names something that there is not".to_owned(),
-                takes: kind.takes(),
+                takes: kind.takes,
             });
         }
         let text = constraint.formula.as_ref().map(|formula| &formula.text);

@@ -519,8 +519,8 @@ impl<'a> Reader<'a> {
             }
         };
         self.known_keys(table, "constraints.", &Self::constraint_keys())?;
-        for &kind in KINDS {
-            builder = match kind.key() {
+        for kind in KINDS {
+            builder = match kind.key {
                 EQUATIONS => self.own_equations(builder, places),
                 _ => self.kind(kind, table, objects, builder, places)?,
             };
@@ -960,7 +960,7 @@ impl<'a> Reader<'a> {
                 // A constraint outside of the table where it belongs.
                 let is_constraint = |key: &str| {
                     ["distances", "squared_distances"].contains(&key)
-                        || KINDS.iter().any(|kind| kind.key() == key)
+                        || KINDS.iter().any(|kind| kind.key == key)
                         || key == "orientation"
                 };
                 return Err(self.fail(

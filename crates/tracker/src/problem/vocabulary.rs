@@ -143,21 +143,21 @@ impl Reader<'_> {
     /// All constraints of one kind. Distances between two points are kept apart.
     pub(super) fn kind(
         &self,
-        kind: &dyn Kind,
+        kind: &Kind,
         table: &dyn TableLike,
         objects: &HashSet<String>,
         mut builder: ProblemBuilder,
         places: &mut Places,
     ) -> Result<ProblemBuilder, FileError> {
-        let key = format!("constraints.{}", kind.key());
-        let Some((line, item)) = self.get(table, kind.key()) else {
+        let key = format!("constraints.{}", kind.key);
+        let Some((line, item)) = self.get(table, kind.key) else {
             return Ok(builder);
         };
-        let entry = match kind.measure() {
+        let entry = match kind.measure {
             Measure::Nothing => "[\"name\", ...]",
             _ => "[\"name\", ..., number]",
         };
-        let wanted = format!("{entry} with the names of {}", kind.takes());
+        let wanted = format!("{entry} with the names of {}", kind.takes);
         let Some(array) = item.as_array() else {
             let wanted = format!("a list in brackets, each entry {wanted}");
             return Err(self.wrong_kind(line, &key, &wanted, item));
@@ -165,8 +165,8 @@ impl Reader<'_> {
         for value in array {
             let line = self.line(value.span()).or(line);
             if let Some(name) = value.as_str() {
-                builder = builder.constraint(kind.key(), [name]);
-                places.constraints_of_kinds.push((kind.key(), line));
+                builder = builder.constraint(kind.key, [name]);
+                places.constraints_of_kinds.push((kind.key, line));
                 continue;
             }
             let Some(parts) = value.as_array() else {
@@ -174,7 +174,7 @@ impl Reader<'_> {
             };
             let mut parts: Vec<&Value> = parts.iter().collect();
             let is_number = |value: &&Value| value.is_integer() || value.is_float();
-            let wants_number = kind.measure() != Measure::Nothing;
+            let wants_number = kind.measure != Measure::Nothing;
             // A number in quotes is no name: it is refused as what it is.
             let quoted = |value: &&Value| {
                 value
@@ -201,7 +201,7 @@ impl Reader<'_> {
                 let found = format!("a list of {}", names.len());
                 return Err(self.wrong(line, &key, &wanted, found));
             }
-            let between_points = kind.key() == "distances"
+            let between_points = kind.key == "distances"
                 && names.len() == 2
                 && !names
                     .iter()
@@ -217,12 +217,12 @@ impl Reader<'_> {
                     builder.distance(names[0], names[1], number)
                 }
                 (Some(number), false) => {
-                    places.constraints_of_kinds.push((kind.key(), line));
-                    builder.dimension(kind.key(), names, number)
+                    places.constraints_of_kinds.push((kind.key, line));
+                    builder.dimension(kind.key, names, number)
                 }
                 (None, _) => {
-                    places.constraints_of_kinds.push((kind.key(), line));
-                    builder.constraint(kind.key(), names)
+                    places.constraints_of_kinds.push((kind.key, line));
+                    builder.constraint(kind.key, names)
                 }
             };
         }
@@ -231,7 +231,7 @@ impl Reader<'_> {
 
     /// The keys that may be under `[constraints]`.
     pub(super) fn constraint_keys() -> Vec<&'static str> {
-        let mut keys: Vec<&str> = KINDS.iter().map(|kind| kind.key()).collect();
+        let mut keys: Vec<&str> = KINDS.iter().map(|kind| kind.key).collect();
         keys.extend(["squared_distances", "orientation"]);
         keys
     }

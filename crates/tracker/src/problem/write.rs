@@ -56,8 +56,8 @@ impl Problem {
             [lengths, self.entries("distances")].concat(),
         )?;
         write_list(out, "squared_distances", squares)?;
-        for kind in KINDS.iter().filter(|kind| kind.key() != "distances") {
-            write_list(out, kind.key(), self.entries(kind.key()))?;
+        for kind in KINDS.iter().filter(|kind| kind.key != "distances") {
+            write_list(out, kind.key, self.entries(kind.key))?;
         }
         let orientations = self.orientations.iter().map(|one| {
             let points = one.points.iter().map(|&p| name(p));

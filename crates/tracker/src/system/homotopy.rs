@@ -539,14 +539,6 @@ impl Homotopy {
             _ => String::new(),
         }
     }
-
-    /// Spreads a vector of free coordinates over the places of a figure.
-    pub fn scatter(&self, free: &[f64], figure: &mut [f64]) {
-        figure.fill(0.0);
-        for (&place, &x) in self.gauge.place.iter().zip(free) {
-            figure[place] = x;
-        }
-    }
 }
 
 /// The power of two nearest to the mean target length; where there are no distances, to the mean

@@ -4,7 +4,6 @@ pub mod arc;
 #[doc(hidden)]
 pub mod certified;
 mod choice;
-mod congruence;
 mod control;
 mod ends;
 mod events;
@@ -28,7 +27,6 @@ mod witness;
 pub use certified::prove_figure;
 pub use certified::{FigureBox, FiguresSeen, Fold, Relation, Sample, Trace, TubePart};
 pub use choice::{prove, solve_in_best_space, trace_path};
-pub use congruence::congruence_classes;
 pub use control::{Control, Limit, Progress};
 pub use ends::{Away, EndKind, PathEnd};
 pub use first::{First, first};

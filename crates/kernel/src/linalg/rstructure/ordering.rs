@@ -1,7 +1,6 @@
-//! Finding the blocks: maximum matching and strongly connected components.
+//! The order of rows and columns: key unknowns, then the blocks.
 
-use crate::order::each_once;
-use petgraph::graph::{DiGraph, NodeIndex};
+use super::super::decompose::{Block, Blocks};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
@@ -50,9 +49,7 @@ pub enum OrderingError {
 impl Ordering {
     /// Orders equations, given by the unknowns that occur in each, and `unknowns` unknowns.
     ///
-    /// The blocks are the strongly connected components of the graph in which an equation points
-    /// to those that the matching solves for its other unknowns; they do not depend on the
-    /// matching. Among the orders of blocks that are triangular, the one is taken that follows
+    /// Among the orders of [`Blocks`] that are triangular, the one is taken that follows
     /// the given order of unknowns most closely; in a block, rows and columns keep their order.
     pub fn new(
         unknowns: usize,
@@ -71,13 +68,11 @@ impl Ordering {
         if let Some(&e) = ignored.iter().find(|&&e| e >= equations.len()) {
             return Err(OrderingError::NoEquation(e));
         }
-        let mut is_key = vec![false; unknowns];
-        keys.iter().for_each(|&u| is_key[u] = true);
-        let mut is_ignored = vec![false; equations.len()];
-        ignored.iter().for_each(|&e| is_ignored[e] = true);
-        let key_unknowns: Vec<usize> = (0..unknowns).filter(|&u| is_key[u]).collect();
-        let rows: Vec<usize> = (0..equations.len()).filter(|&e| !is_ignored[e]).collect();
-        let columns = unknowns - key_unknowns.len();
+        let is_key = |&u: &usize| keys.contains(&u);
+        let (key_unknowns, left): (Vec<usize>, Vec<usize>) = (0..unknowns).partition(is_key);
+        let is_ignored = |&e: &usize| ignored.contains(&e);
+        let (ignored, rows): (Vec<usize>, Vec<usize>) = (0..equations.len()).partition(is_ignored);
+        let columns = left.len();
         if rows.len() != columns || unknowns != equations.len() {
             return Err(OrderingError::NotSquare {
                 equations: rows.len(),
@@ -85,74 +80,33 @@ impl Ordering {
             });
         }
 
-        let used = |e: usize| equations[e].iter().copied().filter(|&u| !is_key[u]);
-        let solved_by = matching(unknowns, &rows, &used);
-        if solved_by.iter().flatten().count() < columns {
-            let matched: Vec<usize> = solved_by.iter().flatten().copied().collect();
-            return Err(OrderingError::Singular {
-                equations: rows.into_iter().filter(|e| !matched.contains(e)).collect(),
-                unknowns: (0..unknowns)
-                    .filter(|&u| !is_key[u] && solved_by[u].is_none())
-                    .collect(),
-            });
-        }
-
-        let mut graph = DiGraph::<(), ()>::with_capacity(equations.len(), 0);
-        equations.iter().for_each(|_| {
-            graph.add_node(());
-        });
-        for &e in &rows {
-            for other in used(e)
-                .filter_map(|u| solved_by[u])
-                .filter(|&other| other != e)
-            {
-                graph.add_edge(NodeIndex::new(e), NodeIndex::new(other), ());
-            }
-        }
-        let mut component_of = vec![usize::MAX; equations.len()];
-        let mut components: Vec<Component> = Vec::new();
-        for nodes in petgraph::algo::tarjan_scc(&graph) {
-            let mut own: Vec<usize> = nodes.iter().map(|node| node.index()).collect();
-            if is_ignored[own[0]] {
-                continue;
-            }
-            own.sort_unstable();
-            own.iter().for_each(|&e| component_of[e] = components.len());
-            components.push(Component {
-                equations: own,
-                unknowns: Vec::new(),
-            });
-        }
-        for (u, e) in solved_by.iter().enumerate() {
-            if let Some(e) = e {
-                components[component_of[*e]].unknowns.push(u);
-            }
-        }
+        // By their places among those that are left.
+        let column = |u: &usize| left.binary_search(u).ok();
+        let used = rows.iter().map(|&e| equations[e].iter().filter_map(column));
+        let used: Vec<Vec<usize>> = used.map(Iterator::collect).collect();
+        let cut = Blocks::new(&used, columns).map_err(|over| OrderingError::Singular {
+            equations: over.equations.into_iter().map(|e| rows[e]).collect(),
+            unknowns: over.unknowns.into_iter().map(|u| left[u]).collect(),
+        })?;
 
         let mut ordering = Ordering {
             equations: Vec::with_capacity(unknowns),
             unknowns: key_unknowns,
-            blocks: Vec::with_capacity(components.len()),
+            blocks: Vec::with_capacity(cut.blocks.len()),
             keys: unknowns - columns,
             row_of: vec![0; unknowns],
             column_of: vec![0; unknowns],
         };
-        for component in in_order(&components, |c| {
-            let needed = components[c].equations.iter().flat_map(|&e| used(e));
-            let needed = needed.filter_map(|u| Some(component_of[solved_by[u]?]));
-            each_once(needed.filter(|&other| other != c))
-        }) {
-            let Component {
-                equations,
-                unknowns,
-            } = &components[component];
-            ordering.equations.extend(equations);
-            ordering.unknowns.extend(unknowns);
-            ordering.blocks.push(unknowns.len());
+        for block in in_order(&cut.blocks) {
+            ordering
+                .equations
+                .extend(block.equations.iter().map(|&e| rows[e]));
+            ordering
+                .unknowns
+                .extend(block.unknowns.iter().map(|&u| left[u]));
+            ordering.blocks.push(block.unknowns.len());
         }
-        ordering
-            .equations
-            .extend((0..equations.len()).filter(|&e| is_ignored[e]));
+        ordering.equations.extend(ignored);
         for (row, &e) in ordering.equations.iter().enumerate() {
             ordering.row_of[e] = row;
         }
@@ -296,69 +250,28 @@ impl Ordering {
     }
 }
 
-struct Component {
-    equations: Vec<usize>,
-    unknowns: Vec<usize>,
-}
-
-/// For each unknown the equation that a maximum matching gives it, by augmenting paths.
-fn matching<I: Iterator<Item = usize>>(
-    unknowns: usize,
-    rows: &[usize],
-    used: &impl Fn(usize) -> I,
-) -> Vec<Option<usize>> {
-    let mut solved_by: Vec<Option<usize>> = vec![None; unknowns];
-    let mut seen = vec![usize::MAX; unknowns];
-    for (round, &row) in rows.iter().enumerate() {
-        // Depth first, without recursion: paths may be as long as there are unknowns.
-        let mut path = vec![(row, used(row), None)];
-        while let Some((_, candidates, taken)) = path.last_mut() {
-            let Some(u) = candidates.find(|&u| seen[u] != round) else {
-                path.pop();
-                continue;
-            };
-            seen[u] = round;
-            *taken = Some(u);
-            match solved_by[u] {
-                Some(other) => path.push((other, used(other), None)),
-                None => {
-                    for (e, _, taken) in path.drain(..) {
-                        if let Some(u) = taken {
-                            solved_by[u] = Some(e);
-                        }
-                    }
-                }
-            }
-        }
+/// Blocks after all those that they need, else by their first unknowns.
+fn in_order(blocks: &[Block]) -> impl Iterator<Item = &Block> {
+    let mut waiting: Vec<usize> = blocks.iter().map(|block| block.needs.len()).collect();
+    let mut needed_by = vec![Vec::new(); blocks.len()];
+    for (b, block) in blocks.iter().enumerate() {
+        block.needs.iter().for_each(|&need| needed_by[need].push(b));
     }
-    solved_by
-}
-
-/// Components after all those that they need, else by their first unknowns.
-fn in_order(components: &[Component], needed: impl Fn(usize) -> Vec<usize>) -> Vec<usize> {
-    let mut waiting = vec![0; components.len()];
-    let mut needed_by = vec![Vec::new(); components.len()];
-    let mut ready = BinaryHeap::new();
-    let entry = |c: usize| Reverse((components[c].unknowns[0], c));
-    for c in 0..components.len() {
-        let needed = needed(c);
-        waiting[c] = needed.len();
-        needed.iter().for_each(|&other| needed_by[other].push(c));
-        if needed.is_empty() {
-            ready.push(entry(c));
-        }
-    }
-    let mut order = Vec::with_capacity(components.len());
-    while let Some(Reverse((_, c))) = ready.pop() {
-        order.push(c);
-        for &next in &needed_by[c] {
+    let entry = |b: usize| Reverse((blocks[b].unknowns[0], b));
+    let mut ready: BinaryHeap<_> = (0..blocks.len())
+        .filter(|&b| waiting[b] == 0)
+        .map(entry)
+        .collect();
+    std::iter::from_fn(move || {
+        let Reverse((_, b)) = ready.pop()?;
+        for &next in &needed_by[b] {
             waiting[next] -= 1;
             if waiting[next] == 0 {
                 ready.push(entry(next));
             }
         }
-    }
-    order
+        Some(&blocks[b])
+    })
 }
 
 #[cfg(test)]

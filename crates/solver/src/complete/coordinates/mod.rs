@@ -286,9 +286,9 @@ fn blocks(system: &System) -> Vec<Cut> {
     let rows = system.rows[..m].iter();
     let equations: Vec<Vec<usize>> = rows.map(|row| row.entries.clone()).collect();
     match Blocks::new(&equations, m) {
-        Some(blocks) => blocks.blocks,
+        Ok(blocks) => blocks.blocks,
         // Singular whatever the numbers are: one block, of which nothing will be proved.
-        None => vec![Cut {
+        Err(_) => vec![Cut {
             equations: (0..m).collect(),
             unknowns: (0..m).collect(),
             needs: Vec::new(),

@@ -10,7 +10,7 @@
 
 use super::left_out::at_rest_all;
 use super::{Followers, MOST_TUBES, Parts};
-use crate::blocks::{Blocks, Choice, FINE, LAST, Whose, is_exact, rounded_up, square};
+use crate::blocks::{Choice, FINE, LAST, Whose, blocks_of, is_exact, rounded_up, square};
 use crate::constraint::try_lower_all;
 use crate::edit::ending::{Edited, Ending, Keep};
 use crate::edit::setting::Setting;
@@ -166,7 +166,7 @@ impl Parts {
             }
         }
         self.cut.used = square(&choice);
-        self.cut.blocks = Blocks::of(&self.cut.used, &self.cut.system)?;
+        self.cut.blocks = blocks_of(&self.cut.used, &self.cut.system)?;
         self.cut.is_exact = is_exact(&self.cut.blocks, &self.cut.used, &self.cut.system);
         (self.cut.redundant, self.cut.free) = (choice.redundant, choice.free);
         self.together = self.bound_together();

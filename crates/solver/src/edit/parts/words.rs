@@ -3,7 +3,7 @@
 use super::Parts;
 use super::contacts::Kept;
 use crate::blocks::{Account, Verdict};
-use crate::constraint::KINDS;
+use crate::constraint::order_of_kind;
 use crate::edit::session::Decomposition;
 use crate::interval::point;
 use crate::order::InOrder;
@@ -86,8 +86,7 @@ impl Parts {
             };
             constraints.push((held, None));
         }
-        let order = |kind: &str| KINDS.iter().position(|k| k.key() == kind);
-        constraints.order_by_key(|(c, _)| order(&c.kind));
+        constraints.order_by_key(|(c, _)| order_of_kind(&c.kind));
         let named = distances
             .iter()
             .map(|d| &d.1)

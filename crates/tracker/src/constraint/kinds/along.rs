@@ -5,49 +5,37 @@
 use super::prelude::*;
 
 /// See the module.
-pub struct Along;
+pub const ALONG: Kind = Kind {
+    key: "along",
+    meaning: "the second point is by that much further along the line than the first (with its sign; a line leads from its \
+         first point to its second)",
+    takes: "two points and a line",
+    measure: Measure::Signed,
+    ..Kind::lowered_by(lower)
+};
 
-impl Kind for Along {
-    fn key(&self) -> &'static str {
-        "along"
+fn lower(mut of: Given, low: &mut Lowering) -> Result<(), Fault> {
+    let (first, second) = (of.items.point()?, of.items.point()?);
+    if first == second {
+        return Err("the two points are one and the same".to_owned());
     }
-
-    fn meaning(&self) -> &'static str {
-        "the second point is by that much further along the line than the first (with its sign; a line leads from its \
-         first point to its second)"
-    }
-
-    fn takes(&self) -> &'static str {
-        "two points and a line"
-    }
-
-    fn measure(&self) -> Measure {
-        Measure::Signed
-    }
-
-    fn lower(&self, mut of: Given, low: &mut Lowering) -> Result<(), Fault> {
-        let (first, second) = (of.items.point()?, of.items.point()?);
-        if first == second {
-            return Err("the two points are one and the same".to_owned());
-        }
-        let line = of.items.line()?;
-        of.items.end()?;
-        let line = low.line(line)?;
-        let across = low.between(&low.place(first), &low.place(second));
-        let products = low.dot(1, &line.along.forms, &across.forms);
-        let now = dot(&line.along.at, &across.at);
-        let then = Real::from(of.number().value().clone());
-        low.measure(
-            of.name,
-            Measured {
-                products,
-                now,
-                then,
-                power: 1,
-                odd: false,
-                arrows: vec![&line.along],
-            },
-        );
-        Ok(())
-    }
+    let line = of.items.line()?;
+    of.items.end()?;
+    let line = low.line(line)?;
+    let across = low.between(&low.place(first), &low.place(second));
+    let products = low.dot(1, &line.along.forms, &across.forms);
+    let now = dot(&line.along.at, &across.at);
+    let then = Real::from(of.number().value().clone());
+    low.measure(
+        of.name,
+        Measured {
+            products,
+            now,
+            then,
+            power: 1,
+            odd: false,
+            arrows: vec![&line.along],
+        },
+    );
+    Ok(())
 }

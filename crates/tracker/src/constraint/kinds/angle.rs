@@ -11,81 +11,71 @@ use super::prelude::*;
 use crate::places::Each as _;
 
 /// See the module.
-pub struct Angles;
+pub const ANGLES: Kind = Kind {
+    key: "angles",
+    meaning: "the angle in degrees at the middle one of three points, between two lines, between a line and a \
+         plane, or between two planes",
+    takes: "three points with the vertex in the middle, two lines, a line and a plane, or two planes",
+    measure: Measure::Degrees,
+    measure_of: Some(measure_of),
+    read_as,
+    ..Kind::lowered_by(lower)
+};
 
-impl Kind for Angles {
-    fn key(&self) -> &'static str {
-        "angles"
+fn measure_of(mut items: Arguments) -> Measure {
+    if items.points_ahead() == 3 && items.left() == 3 {
+        return Measure::Degrees;
     }
-
-    fn meaning(&self) -> &'static str {
-        "the angle in degrees at the middle one of three points, between two lines, between a line and a \
-         plane, or between two planes"
+    match items.two_flats() {
+        Ok([Flat::Line(_), Flat::Plane(_)] | [Flat::Plane(_), Flat::Line(_)]) => Measure::Slope,
+        _ => Measure::Degrees,
     }
+}
 
-    fn takes(&self) -> &'static str {
-        "three points with the vertex in the middle, two lines, a line and a plane, or two planes"
+fn read_as(mut items: Arguments) -> Option<String> {
+    if items.points_ahead() == 3 && items.left() == 3 {
+        return None;
     }
+    let names = items.clone();
+    let things = items.two_flats().ok()?;
+    Some(names.in_words(things.each(Thing::Flat)))
+}
 
-    fn measure(&self) -> Measure {
-        Measure::Degrees
-    }
-
-    fn measure_of(&self, mut items: Arguments) -> Measure {
-        if items.points_ahead() == 3 && items.left() == 3 {
-            return Measure::Degrees;
-        }
-        match items.two_flats() {
-            Ok([Flat::Line(_), Flat::Plane(_)] | [Flat::Plane(_), Flat::Line(_)]) => Measure::Slope,
-            _ => Measure::Degrees,
-        }
-    }
-
-    fn read_as(&self, mut items: Arguments) -> Option<String> {
-        if items.points_ahead() == 3 && items.left() == 3 {
-            return None;
-        }
-        let names = items.clone();
-        let things = items.two_flats().ok()?;
-        Some(names.in_words(things.each(Thing::Flat)))
-    }
-
-    fn lower(&self, mut of: Given, low: &mut Lowering) -> Result<(), Fault> {
-        let degrees = of.number().value().clone();
-        if let Some([a, b, c]) = legs(&mut of.items)? {
-            let target = Real::cosine_of_degrees(degrees);
-            if low.measure_opposite(of.name, [a, b, c], &target)? {
-                return Ok(());
-            }
-            let legs = [low.span(b, a)?, low.span(b, c)?];
-            let [u, v] = legs.map(|leg| told(leg, &target, low));
-            return between(of.name, low, &u, &v, target, false);
-        }
-        let corner = corner(&of.items);
-        let (first, second) = directions(&mut of.items, low)?;
-        let target = if first.1 == second.1 {
-            Real::cosine_of_degrees(degrees)
-        } else if degrees > Rational::from_integer(90.into()) {
-            return Err("an angle between a line and a plane is at most 90 degrees".to_owned());
-        } else {
-            Real::sine_of_degrees(degrees)
-        };
-        if let Some((points, turned)) = corner
-            && low.are_legs_given(points)?
-        {
-            // The cosine between the legs, of which one may run against its line.
-            let now = dot(&first.0.at, &second.0.at);
-            let cosine = match target.is_zero() && !low.is_editable() {
-                true => target,
-                false => nearer(low, &now, target),
-            };
-            let cosine = if turned { -&cosine } else { cosine };
-            low.measure_opposite(of.name, points, &cosine)?;
+fn lower(mut of: Given, low: &mut Lowering) -> Result<(), Fault> {
+    let degrees = of.number().value().clone();
+    if let Some([a, b, c]) = legs(&mut of.items)? {
+        let target = Real::cosine_of_degrees(degrees);
+        if low.measure_opposite(of.name, [a, b, c], &target)? {
             return Ok(());
         }
-        let (first, second) = (told(first.0, &target, low), told(second.0, &target, low));
-        between(of.name, low, &first, &second, target, true)
+        let legs = [low.span(b, a)?, low.span(b, c)?];
+        let [u, v] = legs.map(|leg| told(leg, &target, low));
+        return between(of.name, low, &u, &v, target, false);
     }
+    let corner = corner(&of.items);
+    let (first, second) = directions(&mut of.items, low)?;
+    let target = if first.1 == second.1 {
+        Real::cosine_of_degrees(degrees)
+    } else if degrees > Rational::from_integer(90.into()) {
+        return Err("an angle between a line and a plane is at most 90 degrees".to_owned());
+    } else {
+        Real::sine_of_degrees(degrees)
+    };
+    if let Some((points, turned)) = corner
+        && low.are_legs_given(points)?
+    {
+        // The cosine between the legs, of which one may run against its line.
+        let now = dot(&first.0.at, &second.0.at);
+        let cosine = match target.is_zero() && !low.is_editable() {
+            true => target,
+            false => nearer(low, &now, target),
+        };
+        let cosine = if turned { -&cosine } else { cosine };
+        low.measure_opposite(of.name, points, &cosine)?;
+        return Ok(());
+    }
+    let (first, second) = (told(first.0, &target, low), told(second.0, &target, low));
+    between(of.name, low, &first, &second, target, true)
 }
 
 /// Three points and nothing more, of which the middle one is the vertex of an angle; `None`: it is of other things.

@@ -4,60 +4,52 @@ use super::super::lowering::{Number, Sum};
 use super::prelude::*;
 use crate::statement::{Atom, Terms};
 
-/// See the module.
-pub struct Equations;
-
 /// The key of the kind.
 pub const EQUATIONS: &str = "equations";
 
-impl Kind for Equations {
-    fn key(&self) -> &'static str {
-        EQUATIONS
-    }
+/// See the module.
+pub const EQUATION: Kind = Kind {
+    key: EQUATIONS,
+    meaning: "an equation of unknowns, coordinates and distances",
+    takes: "an equation in quotes, \"x^2 + y^2 = 2\"",
+    fixes,
+    ..Kind::lowered_by(lower)
+};
 
-    fn meaning(&self) -> &'static str {
-        "an equation of unknowns, coordinates and distances"
+fn fixes(_: &Problem, of: &Constraint) -> Fixes {
+    let is_placed = of
+        .formula
+        .as_ref()
+        .is_some_and(|formula| formula.is_placed());
+    Fixes {
+        frame: is_placed,
+        axes: [is_placed; 3],
     }
+}
 
-    fn takes(&self) -> &'static str {
-        "an equation in quotes, \"x^2 + y^2 = 2\""
+fn lower(of: Given, low: &mut Lowering) -> Result<(), Fault> {
+    let formula = low.problem.constraints[low.constraint()].formula.as_ref();
+    let formula = formula.ok_or("it is no equation")?;
+    let mut atoms: Vec<Number> = Vec::with_capacity(formula.atoms.len());
+    for atom in &formula.atoms {
+        let number = match atom {
+            &Atom::Number(object) => low.unknown_number(object),
+            &Atom::Coordinate { point, axis } => low.coordinate_number(point, axis),
+            &Atom::Length(ends) => low.length_number(ends)?,
+            Atom::Root(terms) => {
+                let (sum, constant) = sum_of(terms, &atoms);
+                low.root_number(sum, constant, of.name)?
+            }
+            Atom::Inverse(terms) => {
+                let (sum, constant) = sum_of(terms, &atoms);
+                low.inverse_number(sum, constant, of.name)?
+            }
+        };
+        atoms.push(number);
     }
-
-    fn fixes(&self, _: &Problem, of: &Constraint) -> Fixes {
-        let is_placed = of
-            .formula
-            .as_ref()
-            .is_some_and(|formula| formula.is_placed());
-        Fixes {
-            frame: is_placed,
-            axes: [is_placed; 3],
-        }
-    }
-
-    fn lower(&self, of: Given, low: &mut Lowering) -> Result<(), Fault> {
-        let formula = low.problem.constraints[low.constraint()].formula.as_ref();
-        let formula = formula.ok_or("it is no equation")?;
-        let mut atoms: Vec<Number> = Vec::with_capacity(formula.atoms.len());
-        for atom in &formula.atoms {
-            let number = match atom {
-                &Atom::Number(object) => low.unknown_number(object),
-                &Atom::Coordinate { point, axis } => low.coordinate_number(point, axis),
-                &Atom::Length(ends) => low.length_number(ends)?,
-                Atom::Root(terms) => {
-                    let (sum, constant) = sum_of(terms, &atoms);
-                    low.root_number(sum, constant, of.name)?
-                }
-                Atom::Inverse(terms) => {
-                    let (sum, constant) = sum_of(terms, &atoms);
-                    low.inverse_number(sum, constant, of.name)?
-                }
-            };
-            atoms.push(number);
-        }
-        let (sum, constant) = sum_of(&formula.zero, &atoms);
-        low.sum(of.name, sum, &-&Real::from(constant));
-        Ok(())
-    }
+    let (sum, constant) = sum_of(&formula.zero, &atoms);
+    low.sum(of.name, sum, &-&Real::from(constant));
+    Ok(())
 }
 
 /// The terms with what the atoms are, and the number that stands by itself.

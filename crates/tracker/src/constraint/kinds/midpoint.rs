@@ -3,31 +3,22 @@
 use super::prelude::*;
 
 /// See the module.
-pub struct Midpoint;
+pub const MIDPOINT: Kind = Kind {
+    key: "midpoint",
+    meaning: "the first point is halfway between two others, or between the points of a line",
+    takes: "a point, and two points or a line through two points",
+    ..Kind::lowered_by(lower)
+};
 
-impl Kind for Midpoint {
-    fn key(&self) -> &'static str {
-        "midpoint"
+fn lower(mut of: Given, low: &mut Lowering) -> Result<(), Fault> {
+    let middle = of.items.point()?;
+    let ends = of.items.segment()?;
+    of.items.end()?;
+    if ends.contains(&middle) {
+        return Err("the point is one of the ends".to_owned());
     }
-
-    fn meaning(&self) -> &'static str {
-        "the first point is halfway between two others, or between the points of a line"
-    }
-
-    fn takes(&self) -> &'static str {
-        "a point, and two points or a line through two points"
-    }
-
-    fn lower(&self, mut of: Given, low: &mut Lowering) -> Result<(), Fault> {
-        let middle = of.items.point()?;
-        let ends = of.items.segment()?;
-        of.items.end()?;
-        if ends.contains(&middle) {
-            return Err("the point is one of the ends".to_owned());
-        }
-        halfway(of.name, low, middle, ends);
-        Ok(())
-    }
+    halfway(of.name, low, middle, ends);
+    Ok(())
 }
 
 /// Says that a point is halfway between two others.

@@ -7,66 +7,54 @@
 use super::prelude::*;
 
 /// See the module.
-pub struct On;
+pub const ON: Kind = Kind {
+    key: "on",
+    meaning: "a point is on a line, in a plane, or on a circle, sphere or arc (which is as good as its whole circle)",
+    takes: "a point and a line, plane, circle, sphere or arc",
+    fixes: Fixes::beside_axis,
+    ..Kind::lowered_by(lower)
+};
 
-impl Kind for On {
-    fn key(&self) -> &'static str {
-        "on"
-    }
-
-    fn meaning(&self) -> &'static str {
-        "a point is on a line, in a plane, or on a circle, sphere or arc (which is as good as its whole circle)"
-    }
-
-    fn takes(&self) -> &'static str {
-        "a point and a line, plane, circle, sphere or arc"
-    }
-
-    fn fixes(&self, _: &Problem, of: &Constraint) -> Fixes {
-        Fixes::beside_axis(&of.items)
-    }
-
-    fn lower(&self, mut of: Given, low: &mut Lowering) -> Result<(), Fault> {
-        let point = of.items.point()?;
-        let place = low.place(point);
-        match (of.items.next(), of.items.left(), low.dimension()) {
-            (Sort::Round, _, _) => {
-                let round = of.items.round()?;
-                of.items.end()?;
-                let round = low.round(round);
-                if round.center == place {
-                    return Err("the point is the centre of it".to_owned());
-                }
-                low.on_round(of.name, &place, &round);
+fn lower(mut of: Given, low: &mut Lowering) -> Result<(), Fault> {
+    let point = of.items.point()?;
+    let place = low.place(point);
+    match (of.items.next(), of.items.left(), low.dimension()) {
+        (Sort::Round, _, _) => {
+            let round = of.items.round()?;
+            of.items.end()?;
+            let round = low.round(round);
+            if round.center == place {
+                return Err("the point is the centre of it".to_owned());
             }
-            (Sort::Plane, _, _) | (Sort::Point, 3, 3) => {
-                let plane = of.items.plane()?;
-                of.items.end()?;
-                if let PlaneName::Points(points) = plane
-                    && points.contains(&point)
-                {
-                    return Err("the plane is one through the point anyway: remove this".to_owned());
-                }
-                let plane = low.proper_plane(plane)?;
-                low.nonzero(&plane.normal);
-                let products = plane.height(low, 1, &place);
-                let now = plane.height_in_sketch(low, &place);
-                low.vanish(of.name, products, now.into(), plane.normal.power + 1);
-            }
-            _ => {
-                let line = of.items.line()?;
-                of.items.end()?;
-                if let LineName::Points(points) = line
-                    && points.contains(&point)
-                {
-                    return Err("the line is one through the point anyway: remove this".to_owned());
-                }
-                let line = low.line(line)?;
-                let across = low.between(&line.base, &place);
-                low.nonzero(&line.along);
-                low.align(of.name, &line.along, &across);
-            }
+            low.on_round(of.name, &place, &round);
         }
-        Ok(())
+        (Sort::Plane, _, _) | (Sort::Point, 3, 3) => {
+            let plane = of.items.plane()?;
+            of.items.end()?;
+            if let PlaneName::Points(points) = plane
+                && points.contains(&point)
+            {
+                return Err("the plane is one through the point anyway: remove this".to_owned());
+            }
+            let plane = low.proper_plane(plane)?;
+            low.nonzero(&plane.normal);
+            let products = plane.height(low, 1, &place);
+            let now = plane.height_in_sketch(low, &place);
+            low.vanish(of.name, products, now.into(), plane.normal.power + 1);
+        }
+        _ => {
+            let line = of.items.line()?;
+            of.items.end()?;
+            if let LineName::Points(points) = line
+                && points.contains(&point)
+            {
+                return Err("the line is one through the point anyway: remove this".to_owned());
+            }
+            let line = low.line(line)?;
+            let across = low.between(&line.base, &place);
+            low.nonzero(&line.along);
+            low.align(of.name, &line.along, &across);
+        }
     }
+    Ok(())
 }

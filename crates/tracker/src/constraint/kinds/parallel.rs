@@ -8,53 +8,37 @@
 use super::prelude::*;
 use crate::places::Each as _;
 
-/// Parallel, or with `right` at a right angle.
-pub struct Parallel {
-    right: bool,
-}
-
 /// Parallel.
-pub const PARALLEL: Parallel = Parallel { right: false };
+pub const PARALLEL: Kind = Kind {
+    key: "parallel",
+    meaning: "two lines, two planes, or a line and a plane are parallel",
+    takes: "two lines, two planes, or a line and a plane",
+    read_as,
+    ..Kind::lowered_by(lower::<false>)
+};
 
 /// At a right angle.
-pub const PERPENDICULAR: Parallel = Parallel { right: true };
+pub const PERPENDICULAR: Kind = Kind {
+    key: "perpendicular",
+    meaning: "two lines (which need not meet), two planes, or a line and a plane are at a right angle",
+    lower: lower::<true>,
+    ..PARALLEL
+};
 
-impl Kind for Parallel {
-    fn key(&self) -> &'static str {
-        if self.right {
-            "perpendicular"
-        } else {
-            "parallel"
-        }
-    }
+fn read_as(mut items: Arguments) -> Option<String> {
+    let names = items.clone();
+    let things = items.two_flats().ok()?;
+    Some(names.in_words(things.each(Thing::Flat)))
+}
 
-    fn meaning(&self) -> &'static str {
-        if self.right {
-            "two lines (which need not meet), two planes, or a line and a plane are at a right angle"
-        } else {
-            "two lines, two planes, or a line and a plane are parallel"
-        }
+fn lower<const RIGHT: bool>(mut of: Given, low: &mut Lowering) -> Result<(), Fault> {
+    let (first, second) = super::angle::directions(&mut of.items, low)?;
+    if (first.1 == second.1) == RIGHT {
+        orthogonal(of.name, low, &first.0, &second.0);
+    } else {
+        low.nonzero(&first.0);
+        low.nonzero(&second.0);
+        low.align(of.name, &first.0, &second.0);
     }
-
-    fn takes(&self) -> &'static str {
-        "two lines, two planes, or a line and a plane"
-    }
-
-    fn read_as(&self, mut items: Arguments) -> Option<String> {
-        let names = items.clone();
-        let things = items.two_flats().ok()?;
-        Some(names.in_words(things.each(Thing::Flat)))
-    }
-
-    fn lower(&self, mut of: Given, low: &mut Lowering) -> Result<(), Fault> {
-        let (first, second) = super::angle::directions(&mut of.items, low)?;
-        if (first.1 == second.1) == self.right {
-            orthogonal(of.name, low, &first.0, &second.0);
-        } else {
-            low.nonzero(&first.0);
-            low.nonzero(&second.0);
-            low.align(of.name, &first.0, &second.0);
-        }
-        Ok(())
-    }
+    Ok(())
 }

@@ -2,48 +2,31 @@
 
 use super::prelude::*;
 
-/// A radius, or with `diameter` twice that.
-pub struct Size {
-    diameter: bool,
-}
-
 /// A radius.
-pub const RADII: Size = Size { diameter: false };
+pub const RADII: Kind = Kind {
+    key: "radii",
+    meaning: "the radius of a circle, sphere or arc",
+    takes: "a circle, sphere or arc",
+    measure: Measure::Length,
+    ..Kind::lowered_by(lower::<1>)
+};
 
 /// A diameter.
-pub const DIAMETERS: Size = Size { diameter: true };
+pub const DIAMETERS: Kind = Kind {
+    key: "diameters",
+    meaning: "the diameter of a circle, sphere or arc",
+    lower: lower::<2>,
+    ..RADII
+};
 
-impl Kind for Size {
-    fn key(&self) -> &'static str {
-        if self.diameter { "diameters" } else { "radii" }
-    }
-
-    fn meaning(&self) -> &'static str {
-        if self.diameter {
-            "the diameter of a circle, sphere or arc"
-        } else {
-            "the radius of a circle, sphere or arc"
-        }
-    }
-
-    fn takes(&self) -> &'static str {
-        "a circle, sphere or arc"
-    }
-
-    fn measure(&self) -> Measure {
-        Measure::Length
-    }
-
-    fn lower(&self, mut of: Given, low: &mut Lowering) -> Result<(), Fault> {
-        let round = of.items.round()?;
-        of.items.end()?;
-        let round = low.round(round);
-        let factor = if self.diameter { 2 } else { 1 };
-        let now = &Real::whole(factor) * &Real::from(round.squared).sqrt();
-        let then = Real::from(of.number().value().clone());
-        let products = vec![Product::new(factor as i32, value(round.radius), Form::One)];
-        let path = low.lead(now, then);
-        low.equate(of.name, products, path, 1);
-        Ok(())
-    }
+fn lower<const FACTOR: i32>(mut of: Given, low: &mut Lowering) -> Result<(), Fault> {
+    let round = of.items.round()?;
+    of.items.end()?;
+    let round = low.round(round);
+    let now = &Real::whole(FACTOR.into()) * &Real::from(round.squared).sqrt();
+    let then = Real::from(of.number().value().clone());
+    let products = vec![Product::new(FACTOR, value(round.radius), Form::One)];
+    let path = low.lead(now, then);
+    low.equate(of.name, products, path, 1);
+    Ok(())
 }

@@ -10,91 +10,79 @@ use super::prelude::*;
 use crate::statement::Shape;
 
 /// See the module.
-pub struct Tangent;
+pub const TANGENT: Kind = Kind {
+    key: "tangent",
+    meaning: "a line and a circle, arc or sphere, two circles or arcs, a plane and a sphere, or two spheres touch; at an end \
+         or a point on them that both share, if there is one, and otherwise from the side where the sketch has them",
+    takes: "a circle, arc or sphere, and another one, a line or a plane",
+    fixes: Fixes::beside_axis,
+    ..Kind::lowered_by(lower)
+};
 
-impl Kind for Tangent {
-    fn key(&self) -> &'static str {
-        "tangent"
-    }
-
-    fn meaning(&self) -> &'static str {
-        "a line and a circle, arc or sphere, two circles or arcs, a plane and a sphere, or two spheres touch; at an end \
-         or a point on them that both share, if there is one, and otherwise from the side where the sketch has them"
-    }
-
-    fn takes(&self) -> &'static str {
-        "a circle, arc or sphere, and another one, a line or a plane"
-    }
-
-    fn fixes(&self, _: &Problem, of: &Constraint) -> Fixes {
-        Fixes::beside_axis(&of.items)
-    }
-
-    fn lower(&self, mut of: Given, low: &mut Lowering) -> Result<(), Fault> {
-        let (first, other) = if of.items.next() == Sort::Round {
-            (Some(of.items.round()?), flat_or_round(&mut of.items)?)
-        } else {
-            let flat = flat_or_round(&mut of.items)?;
-            (None, flat)
-        };
-        let (object, other) = match first {
-            Some(object) => (object, other),
-            None => (of.items.round()?, other),
-        };
-        of.items.end()?;
-        let round = low.round(object);
-        match other {
-            Other::Line(name) => {
-                let line = low.line(name)?;
-                if let LineName::Points(points) = name
-                    && let Some((_, end)) = shared_end(low, &points, &ends(low, object))
-                {
-                    let radius = low.between(&round.center, &low.place(end));
-                    // The radius vanishes no more than the circle does.
-                    low.nonzero(&line.along);
-                    let products = low.dot(1, &line.along.forms, &radius.forms);
-                    let start = Real::from(dot(&line.along.at, &radius.at));
-                    low.vanish(of.name, products, start, line.along.power + 1);
-                    return Ok(());
-                }
-                if low.dimension() == 3 {
-                    let (mut products, square) =
-                        off_line(of.name, low, &round.center, &line).ok_or(CENTRE)?;
-                    products.push(Product::new(-1, value(round.radius), value(round.radius)));
-                    let start = Real::from(square - &round.squared);
-                    low.vanish(of.name, products, start, 2);
-                    return Ok(());
-                }
-                let line = low.headed_line(line);
-                let across = low.between(&line.base, &round.center);
-                let products = low.cross_in_plane(1, &line.along.forms, &across.forms);
-                let now = cross_in_plane(&line.along.at, &across.at);
-                touch(of.name, low, products, now, &line.along, &round)
+fn lower(mut of: Given, low: &mut Lowering) -> Result<(), Fault> {
+    let (first, other) = if of.items.next() == Sort::Round {
+        (Some(of.items.round()?), flat_or_round(&mut of.items)?)
+    } else {
+        let flat = flat_or_round(&mut of.items)?;
+        (None, flat)
+    };
+    let (object, other) = match first {
+        Some(object) => (object, other),
+        None => (of.items.round()?, other),
+    };
+    of.items.end()?;
+    let round = low.round(object);
+    match other {
+        Other::Line(name) => {
+            let line = low.line(name)?;
+            if let LineName::Points(points) = name
+                && let Some((_, end)) = shared_end(low, &points, &ends(low, object))
+            {
+                let radius = low.between(&round.center, &low.place(end));
+                // The radius vanishes no more than the circle does.
+                low.nonzero(&line.along);
+                let products = low.dot(1, &line.along.forms, &radius.forms);
+                let start = Real::from(dot(&line.along.at, &radius.at));
+                low.vanish(of.name, products, start, line.along.power + 1);
+                return Ok(());
             }
-            Other::Plane(name) => {
-                let plane = low.proper_plane(name)?;
-                let plane = low.headed_plane(plane);
-                let products = plane.height(low, 1, &round.center);
-                let now = plane.height_in_sketch(low, &round.center);
-                touch(of.name, low, products, now, &plane.normal, &round)
+            if low.dimension() == 3 {
+                let (mut products, square) =
+                    off_line(of.name, low, &round.center, &line).ok_or(CENTRE)?;
+                products.push(Product::new(-1, value(round.radius), value(round.radius)));
+                let start = Real::from(square - &round.squared);
+                low.vanish(of.name, products, start, 2);
+                return Ok(());
             }
-            Other::Round(second) => {
-                if second == object {
-                    return Err("name two different ones".to_owned());
-                }
-                let mine = ends(low, object);
-                let theirs = ends(low, second);
-                let another = low.round(second);
-                if let Some((a, b)) = shared_end(low, &mine, &theirs) {
-                    let u = low.between(&round.center, &low.place(a));
-                    let v = low.between(&another.center, &low.place(b));
-                    let products = low.cross_in_plane(1, &u.forms, &v.forms);
-                    let start = Real::from(cross_in_plane(&u.at, &v.at));
-                    low.vanish(of.name, products, start, 2);
-                    return Ok(());
-                }
-                both_round(of.name, low, &round, &another)
+            let line = low.headed_line(line);
+            let across = low.between(&line.base, &round.center);
+            let products = low.cross_in_plane(1, &line.along.forms, &across.forms);
+            let now = cross_in_plane(&line.along.at, &across.at);
+            touch(of.name, low, products, now, &line.along, &round)
+        }
+        Other::Plane(name) => {
+            let plane = low.proper_plane(name)?;
+            let plane = low.headed_plane(plane);
+            let products = plane.height(low, 1, &round.center);
+            let now = plane.height_in_sketch(low, &round.center);
+            touch(of.name, low, products, now, &plane.normal, &round)
+        }
+        Other::Round(second) => {
+            if second == object {
+                return Err("name two different ones".to_owned());
             }
+            let mine = ends(low, object);
+            let theirs = ends(low, second);
+            let another = low.round(second);
+            if let Some((a, b)) = shared_end(low, &mine, &theirs) {
+                let u = low.between(&round.center, &low.place(a));
+                let v = low.between(&another.center, &low.place(b));
+                let products = low.cross_in_plane(1, &u.forms, &v.forms);
+                let start = Real::from(cross_in_plane(&u.at, &v.at));
+                low.vanish(of.name, products, start, 2);
+                return Ok(());
+            }
+            both_round(of.name, low, &round, &another)
         }
     }
 }

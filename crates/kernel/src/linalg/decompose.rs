@@ -3,6 +3,7 @@
 use crate::order::each_once;
 use petgraph::algo::{maximum_matching, tarjan_scc};
 use petgraph::graph::{DiGraph, NodeIndex, UnGraph};
+use std::ops::Range;
 
 /// Equations and as many unknowns that can be solved for once all blocks that are needed have been.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -24,34 +25,42 @@ pub struct Blocks {
     pub of_unknown: Vec<usize>,
 }
 
+/// What a maximum matching of equations with unknowns leaves over.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct LeftOver {
+    /// Equations.
+    pub equations: Vec<usize>,
+    /// Unknowns.
+    pub unknowns: Vec<usize>,
+}
+
 impl Blocks {
-    /// Cuts the system whose equations have these unknowns. `None` if no unknown can be found for every equation,
+    /// Cuts the system whose equations have these unknowns. The error: no unknown can be found for every equation,
     /// and the other way round.
-    pub fn new(equations: &[Vec<usize>], unknowns: usize) -> Option<Self> {
+    ///
+    /// The blocks are the strongly connected components of the graph in which an equation points to those that a perfect
+    /// matching solves for its other unknowns; they do not depend on the matching.
+    pub fn new(equations: &[Vec<usize>], unknowns: usize) -> Result<Self, LeftOver> {
         let n = equations.len();
-        if n != unknowns {
-            return None;
-        }
-        let mut graph = UnGraph::<(), ()>::with_capacity(2 * n, 4 * n);
-        for _ in 0..2 * n {
+        let ends = |e: usize| {
+            equations[e]
+                .iter()
+                .map(move |&u| (e as u32, (n + u) as u32))
+        };
+        let mut graph = UnGraph::<(), ()>::from_edges((0..n).flat_map(ends));
+        while graph.node_count() < n + unknowns {
             graph.add_node(());
         }
-        for (e, of) in equations.iter().enumerate() {
-            for &u in of {
-                graph.add_edge(NodeIndex::new(e), NodeIndex::new(n + u), ());
-            }
-        }
         let matching = maximum_matching(&graph);
-        if matching.len() != n {
-            return None;
+        let mate = |node: usize| Some(matching.mate(NodeIndex::new(node))?.index());
+        if n != unknowns || matching.len() != n {
+            let left = |of: Range<usize>| of.filter(|&node| mate(node).is_none());
+            return Err(LeftOver {
+                equations: left(0..n).collect(),
+                unknowns: left(n..n + unknowns).map(|node| node - n).collect(),
+            });
         }
-        let mut equation_of = vec![0; n];
-        let mut unknown_of = vec![0; n];
-        for (a, b) in matching.edges() {
-            let (e, u) = (a.index().min(b.index()), a.index().max(b.index()) - n);
-            equation_of[u] = e;
-            unknown_of[e] = u;
-        }
+        let equation_of: Vec<usize> = (n..2 * n).filter_map(mate).collect();
         let mut needs = DiGraph::<(), ()>::with_capacity(n, 4 * n);
         for _ in 0..n {
             needs.add_node(());
@@ -72,7 +81,11 @@ impl Blocks {
             let mut members: Vec<usize> = component.iter().map(|node| node.index()).collect();
             members.sort_unstable();
             let index = out.blocks.len();
-            let mut own: Vec<usize> = members.iter().map(|&e| unknown_of[e]).collect();
+            let mut own: Vec<usize> = members
+                .iter()
+                .filter_map(|&e| mate(e))
+                .map(|u| u - n)
+                .collect();
             own.sort_unstable();
             for &u in &own {
                 out.of_unknown[u] = index;
@@ -86,7 +99,7 @@ impl Blocks {
                 needs,
             });
         }
-        Some(out)
+        Ok(out)
     }
 
     /// Some blocks with all that they need.
@@ -128,7 +141,7 @@ mod tests {
 
     #[test]
     fn what_is_singular_by_its_pattern_is_not_cut() {
-        assert_eq!(Blocks::new(&[vec![0], vec![0]], 2), None);
-        assert_eq!(Blocks::new(&[vec![0]], 2), None);
+        assert!(Blocks::new(&[vec![0], vec![0]], 2).is_err());
+        assert!(Blocks::new(&[vec![0]], 2).is_err());
     }
 }
