@@ -80,9 +80,12 @@ impl Ordering {
             });
         }
 
-        // By their places among those that are left.
+        // By their places among those that are left. The matching tries the last of a row first: where it leaves something over, the
+        // first unknowns of each equation are solved for.
         let column = |u: &usize| left.binary_search(u).ok();
-        let used = rows.iter().map(|&e| equations[e].iter().filter_map(column));
+        let used = rows
+            .iter()
+            .map(|&e| equations[e].iter().rev().filter_map(column));
         let used: Vec<Vec<usize>> = used.map(Iterator::collect).collect();
         let cut = Blocks::new(&used, columns).map_err(|over| OrderingError::Singular {
             equations: over.equations.into_iter().map(|e| rows[e]).collect(),
