@@ -5,13 +5,13 @@
 //! line has a direction, w = p − q is not 0; and then s = a + b is: w · s = |a|² − |b|² = 0 and w × s = 2 a × b = 0, and |w|² |s|² is the sum of the
 //! squares of both. So s = 0 says in two linear equations what the two others say of figures: c is in the middle.
 
-use super::factors::{Equal, Name, entry, power};
-use super::quadratic::{Equation, Form, Product, Tail, difference};
+use super::factors::{Equal, power};
+use super::quadratic::{Entry, Equation, Form, Product, Tail, difference};
 use crate::interval::Real;
 use crate::places::Each as _;
 
 /// A difference from a point c, by what stands for its entries: the other point's coordinate, and that of c.
-pub type Ends = [Name; 2];
+pub type Ends = [Entry; 2];
 
 /// Puts linear equations in the place of those that a chord through the middle of a circle has.
 ///
@@ -22,7 +22,7 @@ pub fn halve(
     rights: &[Real],
     equal: &Equal,
     is_kept: &[bool],
-    apart: impl Fn([[Name; 2]; 2]) -> bool,
+    apart: impl Fn([[Entry; 2]; 2]) -> bool,
 ) {
     let count = tail.equations.len();
     let keys: Vec<Vec<Key>> = tail.equations.iter().map(|e| keys(e, equal)).collect();
@@ -58,7 +58,7 @@ pub fn halve(
             continue;
         };
         for (e, (a, b)) in [(second, x), (line, y)] {
-            let sum = [a, b].each(|[p, c]| difference(entry(p), entry(c)));
+            let sum = [a, b].each(|[p, c]| difference(p, c));
             let equation = &mut tail.equations[e];
             equation.power = power(&tail.unknowns, sum[0]);
             equation.products = sum.each(|form| Product::new(2, form, Form::One)).to_vec();
@@ -123,7 +123,7 @@ fn halves(mut one: Vec<Key>, mut other: Vec<Key>) -> Option<Vec<[(Ends, Ends); 2
 }
 
 /// Whether an equation says that two different ones of p − c, q − c and p − q are parallel.
-fn is_cross(equation: &Equation, equal: &Equal, axes: &[[Name; 3]; 2]) -> bool {
+fn is_cross(equation: &Equation, equal: &Equal, axes: &[[Entry; 3]; 2]) -> bool {
     let left: Vec<&Product> = equal.left(&equation.products).collect();
     let &[one, other] = left.as_slice() else {
         return false;
@@ -132,7 +132,7 @@ fn is_cross(equation: &Equation, equal: &Equal, axes: &[[Name; 3]; 2]) -> bool {
         return false;
     }
     // Whether a product is that of two differences of named entries.
-    let is = |p: &Product, x: [Name; 2], y: [Name; 2]| {
+    let is = |p: &Product, x: [Entry; 2], y: [Entry; 2]| {
         let both = [p.left, p.right].each(|form| equal.ends(form));
         both == [Some(x), Some(y)] || both == [Some(y), Some(x)]
     };

@@ -8,13 +8,14 @@
 
 use super::arguments::{Arguments, Flat, LineName, Thing};
 use crate::places::Each as _;
+use crate::sets::Joined;
 use crate::statement::Problem;
 
 /// The directions that constraints name.
 pub struct Directions {
     flats: Vec<Flat>,
-    /// For each the number of its class.
-    class: Vec<usize>,
+    /// Those that agree are one class.
+    class: Joined,
     /// Classes at a right angle, by one of each.
     right: Vec<[usize; 2]>,
     in_plane: bool,
@@ -25,7 +26,7 @@ impl Directions {
     pub fn before(problem: &Problem, index: usize) -> Self {
         let mut out = Directions {
             flats: Vec::new(),
-            class: Vec::new(),
+            class: Joined::default(),
             right: Vec::new(),
             in_plane: problem.dimension == 2,
         };
@@ -73,8 +74,7 @@ impl Directions {
             return known;
         }
         self.flats.push(flat);
-        self.class.push(self.flats.len() - 1);
-        self.flats.len() - 1
+        self.class.add()
     }
 
     /// Two directions agree, or with `right` are at a right angle.
@@ -82,20 +82,11 @@ impl Directions {
         let (a, b) = (self.number(a), self.number(b));
         match right {
             true => self.right.push([a, b]),
-            false => self.join(a, b),
+            false => _ = self.class.join([a, b]),
         }
         // In the plane, whatever is at a right angle to one class agrees.
-        while let Some([a, b]) = self.next_to_join() {
-            self.join(a, b);
-        }
-    }
-
-    fn join(&mut self, a: usize, b: usize) {
-        let (a, b) = (self.class[a], self.class[b]);
-        for class in &mut self.class {
-            if *class == b {
-                *class = a;
-            }
+        while let Some(pair) = self.next_to_join() {
+            self.class.join(pair);
         }
     }
 
@@ -107,8 +98,8 @@ impl Directions {
         let all: Vec<[usize; 2]> = self.right.iter().flat_map(both).collect();
         let mut pairs = all.iter().flat_map(|one| all.iter().map(move |b| (one, b)));
         pairs.find_map(|([a, u], [b, v])| {
-            let agree = self.class[*a] == self.class[*b];
-            (agree && self.class[*u] != self.class[*v]).then_some([*u, *v])
+            let agree = self.class.of(*a) == self.class.of(*b);
+            (agree && self.class.of(*u) != self.class.of(*v)).then_some([*u, *v])
         })
     }
 
@@ -117,13 +108,13 @@ impl Directions {
         let mixed = matches!(a, Flat::Line(_)) != matches!(b, Flat::Line(_));
         let classes = [a, b].each(|flat| {
             let number = self.number(flat);
-            self.class[number]
+            self.class.of(number)
         });
         if !mixed {
             return classes[0] == classes[1];
         }
         self.right.iter().any(|pair| {
-            let pair = pair.each(|flat| self.class[flat]);
+            let pair = pair.each(|flat| self.class.of(flat));
             pair == classes || pair == [classes[1], classes[0]]
         })
     }

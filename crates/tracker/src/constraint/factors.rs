@@ -17,33 +17,13 @@ use crate::map::Map;
 use crate::order::each_once;
 use crate::places::Each as _;
 
-/// A coordinate, an unknown or the number 0, in order; the number comes first, and stands for all that is zero.
-pub type Name = (u8, usize, usize);
-
-fn name(entry: Entry) -> Name {
-    match entry {
-        Entry::Zero => (0, 0, 0),
-        Entry::Coordinate { point, axis } => (1, point, axis),
-        Entry::Unknown(u) => (2, u, 0),
-    }
-}
-
-/// The entry that has this name.
-pub fn entry(name: Name) -> Entry {
-    match name {
-        (0, ..) => Entry::Zero,
-        (1, point, axis) => Entry::Coordinate { point, axis },
-        (_, u, _) => Entry::Unknown(u),
-    }
-}
-
-/// What is equal at t = 1.
+/// What is equal at t = 1: the number 0 stands for all that is zero.
 #[derive(Default)]
-pub struct Equal(Map<Name, Name>);
+pub struct Equal(Map<Entry, Entry>);
 
 impl Equal {
     /// What stands for all that is equal to this.
-    fn root(&self, mut of: Name) -> Name {
+    fn root(&self, mut of: Entry) -> Entry {
         while let Some(&next) = self.0.get(&of) {
             of = next;
         }
@@ -51,15 +31,15 @@ impl Equal {
     }
 
     /// A difference, by what stands for its entries. `None`: it is the number 1.
-    pub fn ends(&self, form: Form) -> Option<[Name; 2]> {
+    pub fn ends(&self, form: Form) -> Option<[Entry; 2]> {
         match form {
             Form::One => None,
-            Form::Difference(a, b) => Some([a, b].each(|entry| self.root(name(entry)))),
+            Form::Difference(a, b) => Some([a, b].each(|entry| self.root(entry))),
         }
     }
 
     /// A difference, by what stands for its entries, in order, and its sign. `None`: it is zero, or the number 1.
-    pub fn ordered(&self, form: Form) -> Option<([Name; 2], i32)> {
+    pub fn ordered(&self, form: Form) -> Option<([Entry; 2], i32)> {
         let [a, b] = self.ends(form)?;
         match a.cmp(&b) {
             std::cmp::Ordering::Equal => None,
@@ -81,7 +61,7 @@ impl Equal {
 
     /// Notes that two are equal; whether that is new.
     fn join(&mut self, a: Entry, b: Entry) -> bool {
-        let (a, b) = (self.root(name(a)), self.root(name(b)));
+        let (a, b) = (self.root(a), self.root(b));
         if a != b {
             self.0.insert(a.max(b), a.min(b));
         }
@@ -128,7 +108,7 @@ pub fn take_out(tail: &mut Tail, vanishing: &[bool], apart: &[[usize; 2]], dimen
         }
     }
     if dimension == 2 {
-        let is_apart = |[p, q]: [[Name; 2]; 2]| {
+        let is_apart = |[p, q]: [[Entry; 2]; 2]| {
             vectors.iter().any(|forms| {
                 let mut axes = forms.iter().zip(p).zip(q);
                 axes.all(|((&form, p), q)| [Some([p, q]), Some([q, p])].contains(&equal.ends(form)))
@@ -141,9 +121,7 @@ pub fn take_out(tail: &mut Tail, vanishing: &[bool], apart: &[[usize; 2]], dimen
     subtracted::subtract(tail, &mut rights, &equal, &is_kept);
     for (equation, is_kept) in tail.equations.iter_mut().zip(is_kept) {
         let left = equal.left(&equation.products);
-        let left: Vec<Product> = left
-            .map(|p| p.map(|e| entry(equal.root(name(e)))))
-            .collect();
+        let left: Vec<Product> = left.map(|p| p.map(|e| equal.root(e))).collect();
         // Of one that holds by others nothing would be left.
         if !is_kept && !left.is_empty() {
             equation.products = left;
@@ -171,7 +149,7 @@ fn vectors(tail: &Tail, apart: &[[usize; 2]], dimension: usize) -> Vec<Vec<Form>
 }
 
 /// The differences that are zero in no figure: lengths, and what alone is left of a vector that must not vanish, or has a length.
-fn nonzero(tail: &Tail, vectors: &[Vec<Form>], equal: &Equal, rights: &[Real]) -> Vec<[Name; 2]> {
+fn nonzero(tail: &Tail, vectors: &[Vec<Form>], equal: &Equal, rights: &[Real]) -> Vec<[Entry; 2]> {
     let mut out = Vec::new();
     for (u, unknown) in tail.unknowns.iter().enumerate() {
         if unknown.role == Role::Positive {
@@ -205,7 +183,7 @@ fn nonzero(tail: &Tail, vectors: &[Vec<Form>], equal: &Equal, rights: &[Real]) -
 fn divided(
     products: &[Product],
     equal: &Equal,
-    nonzero: &[[Name; 2]],
+    nonzero: &[[Entry; 2]],
 ) -> Option<(Form, Vec<Product>)> {
     let left: Vec<Product> = equal.left(products).copied().collect();
     let first = left.first()?;

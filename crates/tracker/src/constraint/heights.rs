@@ -13,6 +13,7 @@ use super::polynomial::Polynomial;
 use super::quadratic::{
     Entry, Equation, Form, Nonzero, Product, Role, Tail, Unknown, difference, value,
 };
+use crate::equations::sign;
 use crate::interval::{Interval, Real, point};
 use crate::places::Each as _;
 
@@ -49,10 +50,9 @@ enum Odd {
 /// equations have zero on the right for every t, so that they hold in every flat figure. `heights`: as in [`divide`]. The
 /// error says which equation does neither.
 pub fn odd_ones(tail: &Tail, heights: &[Option<Interval>]) -> Result<([usize; 2], bool), String> {
-    let parity = Parity { tail, heights };
     let (mut equations, mut hold) = (0, true);
     for equation in &tail.equations {
-        if parity.of_equation(equation)? {
+        if is_odd(equation, tail, heights)? {
             equations += 1;
             hold &= equation.right.iter().all(Real::is_zero);
         }
@@ -67,9 +67,8 @@ pub fn odd_ones(tail: &Tail, heights: &[Option<Interval>]) -> Result<([usize; 2]
 /// `heights`: for every point an enclosure of its height in the sketch, in the problem's unit, where that is an
 /// unknown. Fails, in words for people, where flat figures are no continuum or cannot solve the problem.
 pub fn divide(tail: &Tail, heights: &[Option<Interval>]) -> Result<Divided, String> {
-    let parity = Parity { tail, heights };
     let odd: Vec<bool> = (tail.equations.iter())
-        .map(|equation| parity.of_equation(equation))
+        .map(|equation| is_odd(equation, tail, heights))
         .collect::<Result<_, _>>()?;
     let equations = odd.iter().filter(|&&odd| odd).count();
     let unknowns = heights.iter().flatten().count()
@@ -99,54 +98,20 @@ pub fn divide(tail: &Tail, heights: &[Option<Interval>]) -> Result<Divided, Stri
     Ok(out.finish())
 }
 
-/// How things change where heights are reversed.
-struct Parity<'a> {
-    tail: &'a Tail,
-    heights: &'a [Option<Interval>],
-}
-
-impl Parity<'_> {
-    /// `None`: it is zero.
-    fn of_entry(&self, entry: Entry) -> Option<bool> {
-        match entry {
-            Entry::Zero => None,
-            Entry::Unknown(u) => Some(self.tail.unknowns[u].flips[2]),
-            Entry::Coordinate { point, axis: 2 } => self.heights[point].map(|_| true),
-            // Where the reference fixes it, it is zero, which is as good as even.
-            Entry::Coordinate { .. } => Some(false),
-        }
-    }
-
-    /// The error: it is neither. `None`: it is zero.
-    fn of_form(&self, form: Form) -> Result<Option<bool>, ()> {
-        let Form::Difference(a, b) = form else {
-            return Ok(Some(false));
-        };
-        match (self.of_entry(a), self.of_entry(b)) {
-            (Some(a), Some(b)) if a != b => Err(()),
-            (a, b) => Ok(a.or(b)),
-        }
-    }
-
-    /// Whether it changes its sign. The error: some terms do, and others do not.
-    fn of_equation(&self, equation: &Equation) -> Result<bool, String> {
-        let mut odd = None;
-        for p in &equation.products {
-            let parity = match (self.of_form(p.left), self.of_form(p.right)) {
-                (Ok(Some(a)), Ok(Some(b))) => Some(a != b),
-                (Ok(_), Ok(_)) => continue,
-                _ => None,
-            };
-            if parity.is_none() || odd.is_some_and(|odd| parity != Some(odd)) {
-                return Err(format!(
-                    "{} is not symmetric about the reference plane",
-                    equation.name
-                ));
-            }
-            odd = parity;
-        }
-        Ok(odd.unwrap_or(false))
-    }
+/// Whether an equation changes its sign where heights are reversed. The error: some terms do, and others do not.
+fn is_odd(equation: &Equation, tail: &Tail, heights: &[Option<Interval>]) -> Result<bool, String> {
+    // A height that the reference fixes is zero.
+    let left = |entry| match entry {
+        Entry::Coordinate { point, axis: 2 } if heights[point].is_none() => Entry::Zero,
+        entry => entry,
+    };
+    let products: Vec<Product> = equation.products.iter().map(|p| p.map(left)).collect();
+    sign(&products, |entry| entry.changes(tail, 2)).ok_or_else(|| {
+        format!(
+            "{} is not symmetric about the reference plane",
+            equation.name
+        )
+    })
 }
 
 /// The divided equations as they come to be.

@@ -12,9 +12,11 @@ use crate::interval::{Interval, Real};
 /// The highest degree of a right-hand side in t.
 pub const MAX_DEGREE: usize = 4;
 
-/// What a difference is made of.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+/// What a difference is made of, in this order.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Entry {
+    /// The number 0.
+    Zero,
     /// A coordinate of a point, x first. Coordinates that the reference fixes are zero.
     Coordinate {
         /// Index of the point.
@@ -24,8 +26,6 @@ pub enum Entry {
     },
     /// An auxiliary unknown, an index into [`Tail::unknowns`].
     Unknown(usize),
-    /// The number 0.
-    Zero,
 }
 
 impl Entry {
@@ -34,6 +34,15 @@ impl Entry {
         match self {
             Entry::Unknown(u) => Some(u),
             _ => None,
+        }
+    }
+
+    /// Whether it changes its sign where an axis is reversed; the number 0 has both.
+    pub fn changes(self, tail: &Tail, axis: usize) -> Option<bool> {
+        match self {
+            Entry::Zero => None,
+            Entry::Coordinate { axis: k, .. } => Some(k == axis),
+            Entry::Unknown(u) => Some(tail.unknowns[u].flips[axis]),
         }
     }
 }

@@ -10,7 +10,7 @@ use super::lowering::Lowered;
 use super::quadratic::{Entry, Form};
 use super::{Owner, try_lower, try_lower_editable};
 use crate::elimination::Echelon;
-use crate::equations::Ring;
+use crate::equations::{Product, Ring};
 use crate::places::Each as _;
 use crate::residues::{Residue, Residues};
 use crate::statement::{DEPENDS, Problem, counted, list};
@@ -27,9 +27,6 @@ struct System<'a> {
     /// How many columns there are: free coordinates, then auxiliary unknowns.
     width: usize,
 }
-
-/// A factor's derivatives: columns with +1 or −1.
-type Support = [Option<(usize, bool)>; 2];
 
 impl<'a> System<'a> {
     fn new(problem: &'a Problem) -> Result<Self, (Owner, String)> {
@@ -68,35 +65,24 @@ impl<'a> System<'a> {
         }
     }
 
-    fn support(&self, form: Form) -> Support {
-        match form {
-            Form::One => [None, None],
-            Form::Difference(a, b) => [
-                self.column(a).map(|c| (c, true)),
-                self.column(b).map(|c| (c, false)),
-            ],
-        }
-    }
-
-    /// The products of an equation: factor and both factors' supports; `None` stands for the number 1.
-    fn products(&self, equation: usize) -> Vec<(i32, [Option<Support>; 2])> {
-        let support = |form: Form| (form != Form::One).then(|| self.support(form));
-        let distances = self.problem.distances.len();
-        if equation < distances {
-            let [a, b] = self.problem.distances[equation].points;
-            return (0..self.problem.dimension)
-                .map(|axis| {
+    /// The products of an equation, of columns.
+    fn products(&self, equation: usize) -> Vec<Product<Option<usize>>> {
+        let by_column = |product: Product<Entry>| product.map(|entry| self.column(entry));
+        match equation.checked_sub(self.problem.distances.len()) {
+            Some(equation) => {
+                let products = self.lowered.tail.equations[equation].products.iter();
+                products.copied().map(by_column).collect()
+            }
+            None => {
+                let [a, b] = self.problem.distances[equation].points;
+                let along = (0..self.problem.dimension).map(|axis| {
                     let [from, to] = [a, b].each(|point| Entry::Coordinate { point, axis });
-                    let form = support(Form::Difference(from, to));
-                    (1, [form, form])
-                })
-                .collect();
+                    let form = Form::Difference(from, to);
+                    Product::new(1, form, form)
+                });
+                along.map(by_column).collect()
+            }
         }
-        let equation = &self.lowered.tail.equations[equation - distances];
-        let products = equation.products.iter();
-        products
-            .map(|p| (p.factor, [support(p.left), support(p.right)]))
-            .collect()
     }
 
     /// What people call the source of an equation.
@@ -262,26 +248,13 @@ impl System<'_> {
         // Auxiliary unknowns first: they have pivots of their own.
         let auxiliary = self.lowered.tail.unknowns.len();
         let order = |column: usize| (column + auxiliary) % width.max(1);
-        let signed = |sum: Residue, plus: bool, x: Residue| if plus { sum + x } else { sum - x };
+        let value = |column: Option<usize>| column.map_or(Residue::whole(0), |c| at[c]);
         let (rows, circuit) = Echelon::of((equations, width), |equation, row| {
-            for (factor, sides) in self.products(equation) {
-                let value = |side: &Option<Support>| match side {
-                    None => Residue::whole(1),
-                    Some(support) => {
-                        let all = support.iter().flatten();
-                        all.fold(Residue::whole(0), |sum, &(column, plus)| {
-                            signed(sum, plus, at[column])
-                        })
-                    }
-                };
-                for (this, other) in [(0, 1), (1, 0)] {
-                    let Some(support) = &sides[this] else {
-                        continue;
-                    };
-                    let slope = Residue::whole(factor) * value(&sides[other]);
-                    for &(column, plus) in support.iter().flatten() {
+            for product in self.products(equation) {
+                for (column, sign, slope) in product.derivatives(value) {
+                    if let Some(column) = column {
                         let entry = &mut row[order(column)];
-                        *entry = signed(*entry, plus, slope);
+                        *entry = *entry + Residue::whole(sign * product.factor) * slope;
                     }
                 }
             }

@@ -18,10 +18,8 @@ use num_bigint::BigInt;
 /// Larger eliminations are not made: no unknown is known to be zero then.
 const MOST: usize = 200;
 
-/// A factor of a product: a coordinate or an unknown.
-type Factor = (bool, usize, usize);
 /// None, one or two factors, in order.
-type Monomial = Vec<Factor>;
+type Monomial = Vec<Entry>;
 type Sum = Map<Monomial, Rational>;
 
 /// What stands for a coordinate or unknown.
@@ -29,15 +27,15 @@ type Sum = Map<Monomial, Rational>;
 enum Value {
     Number(Rational),
     /// Itself, or another one that is equal.
-    Name(Factor),
+    Name(Entry),
 }
 
 /// What is known of coordinates and unknowns.
 #[derive(Default)]
-struct Known(Map<Factor, Value>);
+struct Known(Map<Entry, Value>);
 
 impl Known {
-    fn value(&self, of: Factor) -> Value {
+    fn value(&self, of: Entry) -> Value {
         let mut name = of;
         loop {
             match self.0.get(&name) {
@@ -48,16 +46,8 @@ impl Known {
         }
     }
 
-    fn is_open(&self, of: Factor) -> bool {
+    fn is_open(&self, of: Entry) -> bool {
         !self.0.contains_key(&of)
-    }
-}
-
-fn factor(entry: Entry) -> Option<Factor> {
-    match entry {
-        Entry::Coordinate { point, axis } => Some((false, point, axis)),
-        Entry::Unknown(u) => Some((true, u, 0)),
-        Entry::Zero => None,
     }
 }
 
@@ -78,14 +68,14 @@ pub fn zeros(tail: &Tail, vanishing: &[bool]) -> Vec<bool> {
             Some(row)
         });
         for row in reduced(rows) {
-            let terms: Vec<(&[Factor], &Rational)> =
+            let terms: Vec<(&[Entry], &Rational)> =
                 row.iter().map(|(m, x)| (m.as_slice(), x)).collect();
             let (of, is) = match terms[..] {
                 [([], x), ([other], _)] => (*other, Value::Number(-x)),
                 [([one], x), ([other], y)] if *x == -y => (*other, Value::Name(*one)),
                 [(product, _)] => {
-                    let mut others: Vec<Factor> = product.to_vec();
-                    others.retain(|&(is_unknown, u, _)| !(is_unknown && nonzero[u]));
+                    let mut others: Vec<Entry> = product.to_vec();
+                    others.retain(|entry| entry.unknown().is_none_or(|u| !nonzero[u]));
                     others.dedup();
                     match others[..] {
                         [only] => (only, Value::Number(Rational::zero())),
@@ -107,7 +97,7 @@ pub fn zeros(tail: &Tail, vanishing: &[bool]) -> Vec<bool> {
         }
     }
     let unknowns = 0..tail.unknowns.len();
-    let is_zero = |u| matches!(known.value((true, u, 0)), Value::Number(x) if x.is_zero());
+    let is_zero = |u| matches!(known.value(Entry::Unknown(u)), Value::Number(x) if x.is_zero());
     unknowns.map(is_zero).collect()
 }
 
@@ -132,10 +122,10 @@ fn nonzero(tail: &Tail, vanishing: &[bool]) -> Vec<bool> {
             let terms: Vec<&Monomial> = left.keys().collect();
             let is_nonzero = |monomial: &Monomial| {
                 let mut factors = monomial.iter();
-                factors.all(|&(is_unknown, u, _)| is_unknown && before[u])
+                factors.all(|entry| entry.unknown().is_some_and(|u| before[u]))
             };
             let single = |monomial: &Monomial| match monomial[..] {
-                [(true, u, _)] => Some(u),
+                [Entry::Unknown(u)] => Some(u),
                 _ => None,
             };
             match terms[..] {
@@ -165,17 +155,19 @@ fn nonzero(tail: &Tail, vanishing: &[bool]) -> Vec<bool> {
 
 /// Σ factor · left · right, multiplied out, with what is known in the place of names.
 fn sum(products: &[Product], known: &Known) -> Sum {
-    let parts = |form: Form| -> Vec<(Option<Factor>, Rational)> {
-        let one = Rational::one;
-        let Form::Difference(a, b) = form else {
-            return vec![(None, one())];
-        };
-        let signed = [(factor(a), one()), (factor(b), -one())].into_iter();
-        let named = signed.filter_map(|(x, sign)| match known.value(x?) {
-            Value::Number(number) => Some((None, number * sign)),
-            Value::Name(name) => Some((Some(name), sign)),
+    let parts = |form: Form| -> Vec<(Option<Entry>, Rational)> {
+        if form == Form::One {
+            return vec![(None, Rational::one())];
+        }
+        let entries = form.entries().filter(|part| part.0 != Entry::Zero);
+        let parts = entries.map(|(entry, sign)| {
+            let sign = Rational::from(BigInt::from(sign));
+            match known.value(entry) {
+                Value::Number(number) => (None, number * sign),
+                Value::Name(name) => (Some(name), sign),
+            }
         });
-        named.collect()
+        parts.collect()
     };
     let mut all = Vec::new();
     for p in products {

@@ -1,11 +1,11 @@
 //! Which changes of sign leave what the equations say as it is.
 
-use super::super::quadratic::{Entry, Form};
+use super::super::quadratic::Entry;
 use super::super::twins::twins;
 use super::super::zeros::zeros;
 use super::Lowering;
 use crate::elimination::Echelon;
-use crate::equations::Ring;
+use crate::equations::{Ring, sign};
 use crate::residues::Residue;
 use crate::statement::Shape;
 
@@ -73,23 +73,10 @@ impl Lowering<'_> {
     /// Whether what satisfies the equations at t = 1 still does with an axis reversed: every equation
     /// stays as it is, or changes its sign and has zero on the right.
     pub(super) fn is_symmetric(&self, axis: usize) -> bool {
-        let entry = |e: &Entry| match *e {
-            Entry::Coordinate { axis: k, .. } => k == axis,
-            Entry::Unknown(u) => self.tail.unknowns[u].flips[axis],
-            Entry::Zero => false,
-        };
-        let form = |f: &Form| match f {
-            Form::One => false,
-            Form::Difference(Entry::Zero, e) | Form::Difference(e, _) => entry(e),
-        };
         let mut equations = self.tail.equations.iter().zip(&self.vanishing);
         equations.all(|(equation, vanishing)| {
-            let mut changes = equation
-                .products
-                .iter()
-                .map(|p| form(&p.left) ^ form(&p.right));
-            let first = changes.next().unwrap_or(false);
-            changes.all(|change| change == first) && (!first || *vanishing)
+            let sign = sign(&equation.products, |entry| entry.changes(&self.tail, axis));
+            sign.is_some_and(|changes| !changes || *vanishing)
         })
     }
 }
