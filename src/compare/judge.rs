@@ -271,19 +271,12 @@ mod tests {
     use crate::interval::{hull, point};
     use crate::problem::Problem;
     use crate::system::Homotopy;
-    use crate::track::{Driving, EndKind, PathEnd, Place, Solution, Space, Status, Stop, StopKind};
+    use crate::track::{EndKind, PathEnd, Place, Solution, Space, Status, Stop, StopKind};
 
     /// A run that met figures of one moving point, and how far it went.
     fn measured(mode: Mode, met: &[f64], length: f64, ending: Ending, residual: f64) -> Measured {
         let radius = if mode == Mode::Certified { 1e-12 } else { 0.0 };
         let solution = |&x: &f64| Solution {
-            points: vec![
-                [point(0.0); 3],
-                [hull(x - radius, x + radius), point(1.0), point(0.0)],
-            ],
-            objects: Vec::new(),
-            auxiliary: Vec::new(),
-            class: 0,
             width: 2.0 * radius,
             // The sketch is at 0.25.
             place: (mode == Mode::Certified).then_some(Place {
@@ -291,8 +284,13 @@ mod tests {
                 rising: true,
                 folds: None,
             }),
-            mirror_of: None,
-            is_degenerate: false,
+            ..Solution::placed(
+                vec![
+                    [point(0.0); 3],
+                    [hull(x - radius, x + radius), point(1.0), point(0.0)],
+                ],
+                0,
+            )
         };
         let end = || PathEnd {
             t: (2.0, 2.0),
@@ -301,25 +299,19 @@ mod tests {
             away: None,
             points: Vec::new(),
         };
+        let status = match ending {
+            Ending::Closed => Status::Closed,
+            Ending::Open => Status::Open(Box::new([end(), end()])),
+            Ending::Stopped => Status::Stopped(Stop::new(StopKind::NoStep, "somewhere")),
+        };
         Measured {
             outcome: Outcome {
-                signed: None,
-                mode,
-                space: Space::Full,
-                status: match ending {
-                    Ending::Closed => Status::Closed,
-                    Ending::Open => Status::Open(Box::new([end(), end()])),
-                    Ending::Stopped => Status::Stopped(Stop::new(StopKind::NoStep, "somewhere")),
-                },
                 solutions: met.iter().map(solution).collect(),
                 steps: 1,
-                rejected: 0,
-                plan_changes: 0,
-                driving: Driving::default(),
                 length,
                 t_range: (0.0, 1.0),
                 seconds: 1.0,
-                switched_on: Vec::new(),
+                ..Outcome::new(mode, Space::Full, status)
             },
             seconds: vec![1.0],
             median: 1.0,

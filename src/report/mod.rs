@@ -72,7 +72,7 @@ mod tests {
     use super::*;
     use crate::interval::{Interval, hull, point};
     use crate::problem::Problem;
-    use crate::track::{Driving, Mode, Options, Outcome, Solution, Space, Status, Stop, StopKind};
+    use crate::track::{Mode, Options, Outcome, Solution, Space, Status, Stop, StopKind};
     use serde_json::Value;
 
     fn triangle() -> Problem {
@@ -98,19 +98,14 @@ mod tests {
             )
         };
         Outcome {
-            signed: None,
-            mode,
-            space: Space::Full,
-            status,
             solutions: vec![solution(hull(1.25, 1.2500001), 0), solution(-third, 1)],
             steps: 458,
             rejected: 3,
-            plan_changes: 0,
-            driving: Driving::default(),
             length: 12.5,
             t_range: (-0.25, 1.0 + f64::EPSILON),
             seconds: 0.0029,
             switched_on: vec!["something".into()],
+            ..Outcome::new(mode, Space::Full, status)
         }
     }
 

@@ -183,31 +183,18 @@ impl Homotopy {
             .map(|x| x * per_unit)
             .collect();
         let mut homotopy = Homotopy {
-            dimension: problem.dimension,
-            points: problem.points.len(),
-            equations,
-            unit,
             edges: distances
                 .iter()
                 .map(|d| Edge { points: d.points })
                 .collect(),
-            lengths: Vec::new(),
-            terms: Vec::new(),
-            rights: Vec::new(),
             names: (0..distances.len())
                 .map(|d| problem.distance_name(d))
                 .collect(),
             point_names: problem.points.iter().map(|p| p.name.clone()).collect(),
             sketch: sketch_box.iter().map(|x| x.mid()).collect(),
             sketch_box,
-            auxiliary: Vec::new(),
-            followed: Vec::new(),
-            spare: Vec::new(),
-            segments: Vec::new(),
-            beside: Vec::new(),
             shapes: problem.objects.iter().map(|o| o.shape.clone()).collect(),
-            gauge,
-            tail,
+            ..Homotopy::without_equations(gauge, unit, tail)
         };
         homotopy.add_distances(problem, distances);
         homotopy.add_constraints();
@@ -240,14 +227,13 @@ impl Homotopy {
         other
     }
 
-    /// The homotopy of a tail alone, all unknowns being its own.
-    pub(super) fn without_distances(gauge: Gauge, unit: f64, tail: Tail) -> Self {
-        let dimension = gauge.dimension;
+    /// What has the unknowns of a gauge and a tail, and nothing else.
+    fn without_equations(gauge: Gauge, unit: f64, tail: Tail) -> Self {
         let places = gauge.variable.len();
-        let mut homotopy = Homotopy {
-            dimension,
-            points: places / dimension,
-            equations: tail.unknowns.len(),
+        Homotopy {
+            dimension: gauge.dimension,
+            points: places / gauge.dimension,
+            equations: gauge.place.len() + tail.unknowns.len(),
             unit,
             edges: Vec::new(),
             lengths: Vec::new(),
@@ -265,7 +251,23 @@ impl Homotopy {
             shapes: Vec::new(),
             gauge,
             tail,
+        }
+    }
+
+    /// The homotopy of a tail alone, all unknowns being its own. `variable`: see [`Gauge::variable`].
+    pub(super) fn without_distances(
+        dimension: usize,
+        variable: Vec<usize>,
+        unit: f64,
+        tail: Tail,
+    ) -> Self {
+        let gauge = Gauge {
+            dimension,
+            reference: Vec::new(),
+            place: Vec::new(),
+            variable,
         };
+        let mut homotopy = Homotopy::without_equations(gauge, unit, tail);
         homotopy.add_constraints();
         homotopy
     }
@@ -280,13 +282,7 @@ impl Homotopy {
             tail.equations.len(),
             "as many equations as unknowns"
         );
-        let gauge = Gauge {
-            dimension: 2,
-            reference: Vec::new(),
-            place: Vec::new(),
-            variable: Vec::new(),
-        };
-        Self::without_distances(gauge, 1.0, tail)
+        Self::without_distances(2, Vec::new(), 1.0, tail)
     }
 
     fn add_distances(&mut self, problem: &Problem, distances: &[Distance]) {

@@ -1,6 +1,6 @@
 //! A homotopy made of equations and unknowns directly: a part of a problem's, or its with some unknowns made one.
 
-use super::{Gauge, Homotopy, Right, Segment, Term};
+use super::{Homotopy, Right, Segment, Term};
 use crate::constraint::{Equation, Nonzero, Tail, Unknown};
 
 /// Equations in unknowns that are all listed; [`crate::constraint::Entry::Unknown`] is an index into them.
@@ -47,12 +47,6 @@ impl Homotopy {
         assert_eq!(part.equations.len(), m, "as many equations as unknowns");
         assert!(part.unit.is_normal() && part.unit > 0.0 && part.unit.to_bits() << 12 == 0);
         let variable = part.coordinates.iter().map(|c| c.unwrap_or(m));
-        let gauge = Gauge {
-            dimension: part.dimension,
-            reference: Vec::new(),
-            place: Vec::new(),
-            variable: variable.collect(),
-        };
         let tail = Tail {
             unknowns: part.unknowns,
             equations: part.equations,
@@ -60,7 +54,8 @@ impl Homotopy {
             mirrors: false,
             ..Tail::default()
         };
-        let mut homotopy = Homotopy::without_distances(gauge, part.unit, tail);
+        let mut homotopy =
+            Homotopy::without_distances(part.dimension, variable.collect(), part.unit, tail);
         homotopy.followed = part.followed;
         homotopy.segments = part.segments;
         let beside = part.beside.into_iter().map(|(equation, within)| {

@@ -3,8 +3,8 @@
 use super::arc::{ArcEnd, ArcRun, Figure};
 use super::certified::arcs;
 use super::{
-    Control, Driving, LARGEST_SQUARE, Mode, Options, Outcome, Place, Solution, Space, StartError,
-    Status, Stop, StopKind, relative_width,
+    Control, LARGEST_SQUARE, Mode, Options, Outcome, Place, Solution, Space, StartError, Status,
+    Stop, StopKind, relative_width,
 };
 use crate::interval::point;
 use crate::problem::Problem;
@@ -108,19 +108,14 @@ fn account(homotopy: &Homotopy, space: Space, run: ArcRun, clock: Instant) -> Fi
     First {
         turns_at,
         outcome: Outcome {
-            signed: None,
-            mode: Mode::Certified,
-            space,
-            status: Status::Stopped(reason),
             solutions,
             steps: run.steps,
             rejected: run.rejected,
-            plan_changes: 0,
-            driving: Driving::default(),
             length: run.length,
             t_range: (0.0, run.t.1),
             seconds: clock.elapsed().as_secs_f64(),
             switched_on: run.switched_on,
+            ..Outcome::new(Mode::Certified, space, Status::Stopped(reason))
         },
     }
 }

@@ -218,3 +218,24 @@ pub struct Outcome {
     /// What was switched on beyond the plain run, and why.
     pub switched_on: Vec<String>,
 }
+
+impl Outcome {
+    /// Of a path that has not been followed at all.
+    pub fn new(mode: Mode, space: Space, status: Status) -> Self {
+        Outcome {
+            mode,
+            space,
+            status,
+            solutions: Vec::new(),
+            signed: None,
+            steps: 0,
+            rejected: 0,
+            plan_changes: 0,
+            driving: Driving::default(),
+            length: 0.0,
+            t_range: (0.0, 0.0),
+            seconds: 0.0,
+            switched_on: Vec::new(),
+        }
+    }
+}

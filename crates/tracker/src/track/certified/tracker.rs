@@ -124,10 +124,6 @@ pub fn track<const N: usize, T: Test<N>>(
     }
     let (plan_changes, driving) = tracker.test.plans();
     Outcome {
-        signed: None,
-        mode: Mode::Certified,
-        space: T::SPACE,
-        status,
         solutions,
         steps: tracker.steps,
         rejected: tracker.rejected,
@@ -137,6 +133,7 @@ pub fn track<const N: usize, T: Test<N>>(
         t_range: tracker.ledger.t_range,
         seconds: clock.elapsed().as_secs_f64(),
         switched_on: tracker.switched_on(),
+        ..Outcome::new(Mode::Certified, T::SPACE, status)
     }
 }
 

@@ -6,7 +6,7 @@ use crate::system::Homotopy;
 use crate::track::certified::{Congruence, FigureBox, Same, classes, is_congruent};
 use crate::track::full::{Equations, Local, Preconditioner};
 use crate::track::{
-    Control, Driving, Mode, Options, Outcome, Progress, Solution, Space, Status, Stop, StopKind,
+    Control, Mode, Options, Outcome, Progress, Solution, Space, Status, Stop, StopKind,
 };
 use std::time::Instant;
 
@@ -176,19 +176,13 @@ impl Record {
         });
         let solutions = solutions.collect();
         Outcome {
-            signed: None,
-            mode: Mode::Float,
-            space: Space::Full,
-            status,
             solutions,
             steps: self.steps,
             rejected: self.rejected,
-            plan_changes: 0,
-            driving: Driving::default(),
             length: self.length,
             t_range: self.t_range,
             seconds: self.started.elapsed().as_secs_f64(),
-            switched_on: Vec::new(),
+            ..Outcome::new(Mode::Float, Space::Full, status)
         }
     }
 }
