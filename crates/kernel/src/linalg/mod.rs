@@ -23,5 +23,6 @@ pub use least::{
     Linear, damped, decomposed, linearised, nearest, nearest_zero, scaled, shortest, weakest,
 };
 pub use matrix::{LANE, Matrix, Sparse, Vector};
+pub use pivots::is_odd;
 pub use rank::extreme_pivots;
 pub use span::Span;

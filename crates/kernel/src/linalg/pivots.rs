@@ -217,7 +217,7 @@ impl Pivots {
 }
 
 /// Whether a permutation is odd: whether it has an odd number of cycles of even length.
-fn is_odd(permutation: &[usize], seen: &mut Vec<bool>) -> bool {
+pub fn is_odd(permutation: &[usize], seen: &mut Vec<bool>) -> bool {
     refill(seen, permutation.len(), false);
     let mut odd = false;
     for start in 0..permutation.len() {
@@ -270,4 +270,17 @@ fn exchange(
         a[p * stride + j] *= -inverse;
     }
     a[p * stride + k] = inverse;
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn permutations_are_even_or_odd() {
+        let is_odd = |permutation: [usize; 4]| super::is_odd(&permutation, &mut Vec::new());
+        assert!(!is_odd([0, 1, 2, 3]));
+        assert!(is_odd([1, 0, 2, 3]));
+        assert!(!is_odd([1, 2, 0, 3]));
+        assert!(is_odd([1, 2, 3, 0]));
+        assert!(!is_odd([1, 0, 3, 2]));
+    }
 }

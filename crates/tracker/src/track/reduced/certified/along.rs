@@ -17,12 +17,7 @@ pub struct Along {
     /// 1, h, h², …
     pub powers: [f64; DEGREE + 1],
     /// Σ_{k≥j} |d_k| hᵏ for j = 0, 1, 2, 3, 4, 5, by axis and distance.
-    pub all: Vec<Vector>,
-    from1: Vec<Vector>,
-    pub from2: Vec<Vector>,
-    pub from3: Vec<Vector>,
-    pub from4: Vec<Vector>,
-    pub from5: Vec<Vector>,
+    pub from: [Vec<Vector>; 6],
     /// Σ k |d_k| hᵏ⁻¹.
     pub slopes: Vec<Vector>,
     /// F(ẑ(s)) by distance, with rounding and the radii of lengths: what does not get smaller with s,
@@ -50,12 +45,7 @@ impl Along {
     pub fn new(equations: &Equations) -> Self {
         Along {
             powers: [1.0; DEGREE + 1],
-            all: equations.per_axis(),
-            from1: equations.per_axis(),
-            from2: equations.per_axis(),
-            from3: equations.per_axis(),
-            from4: equations.per_axis(),
-            from5: equations.per_axis(),
+            from: std::array::from_fn(|_| equations.per_axis()),
             slopes: equations.per_axis(),
             low: equations.per_edge(),
             high: equations.per_edge(),
@@ -88,27 +78,20 @@ impl Along {
             let d: [&[Lane]; COEFFICIENTS] = array(|k| local.d[k][axis].lanes());
             let lanes = d[0].len();
             let d = d.each(|d| &d[..lanes]);
-            let all = &mut self.all[axis].lanes_mut()[..lanes];
-            let from1 = &mut self.from1[axis].lanes_mut()[..lanes];
-            let from2 = &mut self.from2[axis].lanes_mut()[..lanes];
-            let from3 = &mut self.from3[axis].lanes_mut()[..lanes];
-            let from4 = &mut self.from4[axis].lanes_mut()[..lanes];
-            let from5 = &mut self.from5[axis].lanes_mut()[..lanes];
+            let from = self.from.each_mut();
+            let mut from = from.map(|from| &mut from[axis].lanes_mut()[..lanes]);
             let slopes = &mut self.slopes[axis].lanes_mut()[..lanes];
             for l in 0..lanes {
+                let mut sum = [0.0; LANE];
+                for k in (0..=ORDER).rev() {
+                    for i in 0..LANE {
+                        sum[i] += d[k][l][i].abs() * hs[k];
+                    }
+                    if let Some(from) = from.get_mut(k) {
+                        from[l] = sum;
+                    }
+                }
                 for i in 0..LANE {
-                    let size = |k: usize| d[k][l][i].abs() * hs[k];
-                    let five = (5..=ORDER).rev().fold(0.0, |sum: f64, k| sum + size(k));
-                    let four = five + size(4);
-                    let three = four + size(3);
-                    let two = three + size(2);
-                    from5[l][i] = five;
-                    from4[l][i] = four;
-                    from3[l][i] = three;
-                    from2[l][i] = two;
-                    let one = two + size(1);
-                    from1[l][i] = one;
-                    all[l][i] = one + size(0);
                     slopes[l][i] = (1..=ORDER).rev().fold(0.0, |sum: f64, k| {
                         (k as f64 * d[k][l][i].abs()).mul_add(hs[k - 1], sum)
                     });
@@ -170,8 +153,8 @@ impl Along {
             let (mut at_0, mut beyond, mut turned) = ([0.0; LANE], [0.0; LANE], [0.0; LANE]);
             for axis in 0..equations.dimension() {
                 let of = |vectors: &[Vector]| vectors[axis].lanes()[l];
-                let (d, from1) = (of(&local.d[0]).each(f64::abs), of(&self.from1));
-                let (all, slopes) = (of(&self.all), of(&self.slopes));
+                let (d, from1) = (of(&local.d[0]).each(f64::abs), of(&self.from[1]));
+                let (all, slopes) = (of(&self.from[0]), of(&self.slopes));
                 for i in 0..LANE {
                     at_0[i] += 0.5 * (d[i] * d[i]);
                     beyond[i] += from1[i] * (all[i] + d[i]);

@@ -45,9 +45,9 @@ pub fn of_z<const W: usize>(
         for axis in 0..equations.dimension() {
             let [i, j] = equations.ends[axis][e];
             let both = rho_a[i as usize] + rho_a[j as usize];
-            tails[0] += along.from4[axis][e] * both;
-            tails[1] += along.from3[axis][e] * both;
-            tails[2] += along.from2[axis][e] * both;
+            tails[0] += along.from[4][axis][e] * both;
+            tails[1] += along.from[3][axis][e] * both;
+            tails[2] += along.from[2][axis][e] * both;
         }
         for (q, (z, tail)) in zs.iter().zip(tails).enumerate() {
             let size = z[e].each(|lane| lane.each(f64::abs));

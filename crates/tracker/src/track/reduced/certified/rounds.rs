@@ -148,9 +148,9 @@ impl ReducedTest {
             let (mut cubic, mut width) = (along.slope_tails[e] * omega[t], 0.0);
             for axis in 0..equations.dimension() {
                 let ends = equations.ends[axis][e];
-                cubic += along.from5[axis][e] * both(moved0, ends)
-                    + along.from4[axis][e] * both(moved1, ends)
-                    + along.from3[axis][e] * both(moved2, ends);
+                cubic += along.from[5][axis][e] * both(moved0, ends)
+                    + along.from[4][axis][e] * both(moved1, ends)
+                    + along.from[3][axis][e] * both(moved2, ends);
                 width += both(omega, ends).powi(2);
             }
             width += along.curvature[e] * (omega[t] * omega[t]);
@@ -253,7 +253,7 @@ impl ReducedTest {
             let (mut rounding, mut width, mut turn) = (0.0, 0.0, 0.0);
             for axis in 0..equations.dimension() {
                 let both = both(omega, equations.ends[axis][e]);
-                rounding += along.all[axis][e] * both;
+                rounding += along.from[0][axis][e] * both;
                 width += both * both;
                 turn += along.slopes[axis][e] * both;
             }
@@ -340,7 +340,7 @@ fn bound_inverse(
         *spread = from2 + per_entry * all;
     }
     for (axis, spread) in spreads.iter_mut().enumerate() {
-        let terms = along.from2[axis].iter().zip(along.all[axis].iter());
+        let terms = along.from[2][axis].iter().zip(along.from[0][axis].iter());
         for (spread, (from2, all)) in spread.iter_mut().zip(terms) {
             *spread = from2 + per_entry * all;
         }

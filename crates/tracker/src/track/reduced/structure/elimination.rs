@@ -6,7 +6,7 @@ use super::substitution::Substitution;
 use crate::linalg::rstructure::{
     Blocks, Elimination as Reduced, MAX_KEYS, Row, Solves, add, zeros,
 };
-use crate::linalg::{Singular, Vector};
+use crate::linalg::{Singular, Vector, is_odd};
 use crate::track::full::{Differences, Equations, Lengths, dot};
 use std::sync::Arc;
 
@@ -160,8 +160,13 @@ impl Elimination {
         let rows = rows.chain(layout.ignored.iter().copied());
         let columns = blocks().flat_map(|b| b.unknowns[..b.size].iter().copied());
         let columns = columns.chain(layout.keys.iter().copied());
-        let normal = equations.m as u32;
-        negative ^ is_odd(rows.chain([normal])) ^ is_odd(columns)
+        let rows = rows.chain([equations.m as u32]);
+        let [rows, columns]: [Vec<usize>; 2] = [
+            rows.map(|row| row as usize).collect(),
+            columns.map(|column| column as usize).collect(),
+        ];
+        let mut seen = Vec::new();
+        negative ^ is_odd(&rows, &mut seen) ^ is_odd(&columns, &mut seen)
     }
 
     /// The Jacobian at this point.
@@ -247,34 +252,5 @@ impl Solves<f64> for Bordered<'_> {
                 given - dot(self.normal, &x[..self.normal.len()])
             }
         }
-    }
-}
-
-/// Whether a permutation of 0, 1, … is odd.
-fn is_odd(permutation: impl Iterator<Item = u32>) -> bool {
-    let mut next: Vec<u32> = permutation.collect();
-    let mut odd = false;
-    for k in 0..next.len() {
-        // Each exchange brings one number to its place.
-        while next[k] as usize != k {
-            let to = next[k] as usize;
-            next.swap(k, to);
-            odd = !odd;
-        }
-    }
-    odd
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn permutations_are_even_or_odd() {
-        assert!(!is_odd([0, 1, 2, 3].into_iter()));
-        assert!(is_odd([1, 0, 2, 3].into_iter()));
-        assert!(!is_odd([1, 2, 0, 3].into_iter()));
-        assert!(is_odd([1, 2, 3, 0].into_iter()));
-        assert!(!is_odd([1, 0, 3, 2].into_iter()));
     }
 }
