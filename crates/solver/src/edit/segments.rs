@@ -145,6 +145,7 @@ pub(super) fn stop(problem: &Problem, kept: &Kept) -> Stop {
 mod tests {
     use super::*;
     use crate::interval::{hull, point};
+    use crate::system::sign_of;
 
     #[test]
     fn an_arc_vanishes_at_0_and_360_degrees_and_not_at_180() {
@@ -152,11 +153,12 @@ mod tests {
         let sign = |degrees: f64| {
             let (sin, cos) = degrees.to_radians().sin_cos();
             let around = |x: f64| hull(x - 1e-3, x + 1e-3);
-            extent.sign(|k| match k {
+            let at = |k| match k {
                 0 => [point(0.0); 3],
                 1 => [point(2.0), point(0.0), point(0.0)],
                 _ => [around(3.0 * cos), around(3.0 * sin), point(0.0)],
-            })
+            };
+            extent.sign(at, sign_of)
         };
         for (degrees, wanted) in [
             (0.0, 0),

@@ -33,4 +33,4 @@ pub use part::{Beside, Part};
 pub use quantity::{Quantity, WHOLE_TURN, with_a_name};
 pub use right::Right;
 pub use segment::{Extent, Segment};
-pub use simplices::{orientation, simplices};
+pub use simplices::{determinant, orientation, sign_of, simplices};

@@ -1,6 +1,8 @@
 //! Drawn lines along an axis and arcs: what of them must not shrink to nothing and come out turned round.
 
-use crate::interval::Interval;
+use super::simplices::determinant;
+use crate::equations::Ring;
+use crate::interval::vector::minus;
 use crate::places::Each as _;
 
 /// A line or an arc that is drawn, and keeps its sense as long as it does not vanish.
@@ -39,16 +41,17 @@ impl Extent {
         }
     }
 
-    /// The sign in a box of the points, by place in [`Extent::points`]: of a line's length along its axis; of an arc that of the
-    /// sine of its angle, or 1 where that is certain to be about 180 degrees. 0: it is not certain that it does not vanish.
-    pub fn sign(&self, at: impl Fn(usize) -> [Interval; 3]) -> i8 {
-        let of = |x: Interval| i8::from(x.inf() > 0.0) - i8::from(x.sup() < 0.0);
+    /// The sign, as `of` tells it of numbers, where the points are `at`, by place in [`Extent::points`]: of a line's length along its
+    /// axis; of an arc that of the sine of its angle, or 1 where that is certain to be about 180 degrees. 0: it is not certain
+    /// that it does not vanish.
+    #[inline]
+    pub fn sign<T: Ring + Copy>(&self, at: impl Fn(usize) -> [T; 3], of: impl Fn(T) -> i8) -> i8 {
         match *self {
             Extent::Along { axis, .. } => of(at(1)[axis] - at(0)[axis]),
             Extent::Sweep { .. } => {
-                let [c, s, e] = [at(0), at(1), at(2)];
-                let [u, v] = [s, e].each(|p| [p[0] - c[0], p[1] - c[1]]);
-                match of(u[0] * v[1] - u[1] * v[0]) {
+                let points = [0, 1, 2].each(at);
+                let [u, v] = [1, 2].each(|k| minus(points[k], points[0]));
+                match of(determinant(3, |k| points[k])) {
                     0 if of(u[0] * v[0] + u[1] * v[1]) < 0 => 1,
                     sign => sign,
                 }

@@ -1,7 +1,8 @@
 //! Triangles in the plane and tetrahedra in space whose orientation tells figures of the same dimensions apart.
 
+use crate::equations::Ring;
+use crate::interval::Interval;
 use crate::interval::vector::{cross, dot, minus};
-use crate::interval::{Interval, point};
 use crate::order::each_once;
 
 /// Each point with as many of the points joined to it as there are dimensions, in order, each set once.
@@ -31,25 +32,32 @@ pub fn simplices(dimension: usize, points: usize, pairs: &[[usize; 2]]) -> Vec<V
     each_once(all)
 }
 
-/// The sign of the determinant of the differences of some points, three in the plane and four in space, from the first of
-/// them: twice a signed area, six times a signed volume. 0 where the boxes do not tell.
-pub fn orientation(points: &[[Interval; 3]], simplex: &[usize]) -> i8 {
-    let side = |k: usize| minus(points[simplex[k]], points[simplex[0]]);
-    let determinant = match simplex.len() {
+/// The determinant of the differences of some points, three in the plane and four in space, from the first of them: twice a
+/// signed area, six times a signed volume.
+#[inline]
+pub fn determinant<T: Ring + Copy>(points: usize, at: impl Fn(usize) -> [T; 3]) -> T {
+    let side = |k: usize| minus(at(k), at(0));
+    match points {
         3 => cross(side(1), side(2))[2],
         4 => dot(side(1), cross(side(2), side(3))),
-        _ => point(0.0),
-    };
-    match (determinant.inf() > 0.0, determinant.sup() < 0.0) {
-        (true, _) => 1,
-        (_, true) => -1,
-        _ => 0,
+        _ => T::whole(0),
     }
+}
+
+/// The sign of all numbers of a range; 0 where they have none.
+pub fn sign_of(range: Interval) -> i8 {
+    i8::from(range.inf() > 0.0) - i8::from(range.sup() < 0.0)
+}
+
+/// The sign of the [`determinant`] of some points. 0 where the boxes do not tell.
+pub fn orientation(points: &[[Interval; 3]], simplex: &[usize]) -> i8 {
+    sign_of(determinant(simplex.len(), |k| points[simplex[k]]))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::interval::point;
 
     #[test]
     fn each_set_of_joined_points_turns_up_once() {

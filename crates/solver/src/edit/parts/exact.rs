@@ -6,7 +6,7 @@ use crate::equations::{Form, Ring as _};
 use crate::interval::along::{Along, Quantifiable as _};
 use crate::interval::{Interval, Real, hull, point};
 use crate::places::array;
-use crate::system::{Segment, orientation};
+use crate::system::{Segment, determinant, sign_of};
 use crate::track::arc::{Figure, Kept, Off, Orientation};
 use crate::track::{Stop, StopKind};
 use std::collections::HashMap;
@@ -139,8 +139,6 @@ impl Parts {
             if !self.move_exactly(&of, exact) {
                 continue;
             }
-            // The points' places in the order of the set.
-            let set: Vec<usize> = (0..points.len()).collect();
             let sign = |time: Interval| -> i8 {
                 let place = |k: usize| -> [Interval; 3] {
                     array(|axis| match axis < d {
@@ -148,8 +146,8 @@ impl Parts {
                         false => point(0.0),
                     })
                 };
-                let places: Vec<[Interval; 3]> = set.iter().map(|&k| place(k)).collect();
-                orientation(&places, &set)
+                let places: Vec<[Interval; 3]> = (0..points.len()).map(place).collect();
+                sign_of(determinant(points.len(), |k| places[k]))
             };
             let first = sign(point(0.0));
             let lost = pieces(upto.sup())
@@ -179,12 +177,13 @@ impl Parts {
                 continue;
             }
             let sign = |time: Interval| {
-                extent.sign(|k| {
+                let at = |k: usize| {
                     array(|axis| match axes.contains(&axis) {
                         true => self.place_at(&paths, self.cut.coordinate(points[k], axis), time),
                         false => point(0.0),
                     })
-                })
+                };
+                extent.sign(at, sign_of)
             };
             let mut last = sign(point(0.0));
             let is_known = last != 0;

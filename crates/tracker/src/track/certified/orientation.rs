@@ -8,7 +8,7 @@ use super::piece::{Along, Piece};
 use crate::linalg::Vector;
 use crate::order::each_once;
 use crate::places::{Each as _, array};
-use crate::system::{Extent, Homotopy, simplices};
+use crate::system::{Extent, Homotopy, determinant, simplices};
 use crate::track::arc::{Figure, Kept, Orientation};
 
 /// A tube is cut into at most 2 to this power pieces to tell a sign.
@@ -175,37 +175,18 @@ impl Simplex {
     /// The sign, where it is the same for every θ and within all radii; otherwise 0.
     fn sign(&self, piece: &Piece) -> i8 {
         let at = |k: usize| self.entries[k].each(|i| piece.at(i as usize));
-        let first = at(0);
-        let side = |k: usize| -> [Along; 3] {
-            let other = at(k);
-            array(|axis| other[axis] - first[axis])
-        };
-        let minor = |v: [Along; 3], w: [Along; 3], i: usize, j: usize| v[i] * w[j] - v[j] * w[i];
         // A term of `rest` goes through fewer than 12 roundings in a product, 5 in a sum, of which there are two and four.
         let certain = |value: Along| {
             let error = value.reach(60);
             i8::from(value.value > error) - i8::from(value.value < -error)
         };
         match &self.segment {
-            Some((_, Extent::Along { axis, .. })) => return certain(side(1)[*axis]),
-            Some((_, Extent::Sweep { .. })) => {
-                let (u, v) = (side(1), side(2));
-                return match certain(minor(u, v, 0, 1)) {
-                    0 if certain(u[0] * v[0] + u[1] * v[1]) < 0 => 1,
-                    sign => sign,
-                };
+            Some((_, extent)) => extent.sign(at, certain),
+            None => {
+                let count = self.what.points.len();
+                assert!(count == 4 || piece.is_last(self.entries[0][2] as usize));
+                certain(determinant(count, at))
             }
-            None => {}
         }
-        let value = if self.what.points.len() == 3 {
-            assert!(piece.is_last(self.entries[0][2] as usize));
-            minor(side(1), side(2), 0, 1)
-        } else {
-            let (u, v, w) = (side(1), side(2), side(3));
-            let parts = [(0, 1, 2), (1, 2, 0), (2, 0, 1)];
-            let [a, b, c] = parts.each(|(i, j, k)| u[i] * minor(v, w, j, k));
-            a + b + c
-        };
-        certain(value)
     }
 }

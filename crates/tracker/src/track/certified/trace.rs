@@ -216,21 +216,12 @@ impl Trace {
             let until = turn.unwrap_or(a);
             at + path_length(local, from, until, self.unit, &mut scratch)
         });
-        // A middle, and the mean value theorem: near a fold t hardly changes, and Horner's rule would not
-        // show it.
-        let middle = point(s.mid());
         let z = (0..self.width).map(|i| {
             let coefficient = |k: usize| point(local.z[k][i]);
-            let along = (1..N)
-                .rev()
-                .fold(point(0.0), |sum, k| (sum + coefficient(k)) * middle);
-            let slope = (1..N).rev().fold(point(0.0), |sum, k| {
-                sum * s + point(k as f64) * coefficient(k)
-            });
             // The path's point in the cross-section of s is that near ẑ(s).
             let near = (point(tube.proof.distance) * point(tube.weights[i])).sup();
             let start = coefficient(0) + point(local.low[i]);
-            start + along + slope * (s - middle) + hull(-near, near)
+            enclosed(start, N, coefficient, s).value + hull(-near, near)
         });
         match &mut self.open {
             None => {
@@ -343,33 +334,18 @@ impl Trace {
         self.pieces.last().map_or(0.0, |piece| piece.end)
     }
 
-    /// The free coordinates (in the problem's units) and t at a parameter of a tube.
-    fn free(&self, k: usize, s: f64) -> Vec<f64> {
-        self.polynomial(k, |coefficients, i| {
-            (0..self.order)
-                .rev()
-                .fold(0.0, |sum: f64, j| sum.mul_add(s, coefficients(j, i)))
-        })
-    }
-
-    /// Their derivatives there.
-    fn slope(&self, k: usize, s: f64) -> Vec<f64> {
-        self.polynomial(k, |coefficients, i| {
-            (1..self.order).rev().fold(0.0, |sum: f64, j| {
-                sum.mul_add(s, j as f64 * coefficients(j, i))
-            })
-        })
-    }
-
-    fn polynomial(
-        &self,
-        k: usize,
-        value: impl Fn(&dyn Fn(usize, usize) -> f64, usize) -> f64,
-    ) -> Vec<f64> {
+    /// The free coordinates (in the problem's units) and t at a parameter of a tube, or their derivatives, the first ones.
+    fn polynomial(&self, k: usize, s: f64, derivative: usize) -> Vec<f64> {
         let (n, start) = (self.width, k * self.order * self.width);
-        let coefficient = |j: usize, i: usize| self.coefficients[start + j * n + i];
+        let value = |i: usize| {
+            let terms = (derivative..self.order).rev();
+            terms.fold(0.0, |sum: f64, j| {
+                let factor = (j as f64).powi(derivative as i32);
+                sum.mul_add(s, factor * self.coefficients[start + j * n + i])
+            })
+        };
         let units = |i: usize| if i + 1 < n { self.unit } else { 1.0 };
-        (0..n).map(|i| units(i) * value(&coefficient, i)).collect()
+        (0..n).map(|i| units(i) * value(i)).collect()
     }
 
     /// The free coordinates and t where the path is so long, and its direction there, a unit vector.
@@ -383,10 +359,10 @@ impl Trace {
         let (k, part) = self.part_at(at)?;
         let Piece { from, to, .. } = self.pieces[k];
         let s = from + (to - from) * part;
-        let mut direction = self.slope(k, s);
+        let mut direction = self.polynomial(k, s, 1);
         let size = direction.iter().map(|x| x * x).sum::<f64>().sqrt();
         direction.iter_mut().for_each(|x| *x /= size);
-        Some((self.free(k, s), direction))
+        Some((self.polynomial(k, s, 0), direction))
     }
 
     /// How far the path may be from the middle of its tube where it is so long.
@@ -482,25 +458,40 @@ impl TubePart<'_> {
         };
         let (n, start) = (trace.width, self.tube * trace.order * trace.width);
         let within = trace.pieces[self.tube].within;
-        let (unit, near, middle) = (point(trace.unit), hull(-within, within), point(s.mid()));
+        let (unit, near) = (point(trace.unit), hull(-within, within));
         let d = gauge.dimension;
         array(|axis| {
             let variable = gauge.variable.get(p * d + axis).copied();
             let Some(i) = variable.filter(|&i| axis < d && i < gauge.place.len()) else {
                 return zero;
             };
-            // A middle, and the mean value theorem: Horner's rule alone would not show that little changes.
             let coefficient = |k: usize| point(trace.coefficients[start + k * n + i]);
-            let (mut value, mut slope) = (point(0.0), point(0.0));
-            for k in (1..trace.order).rev() {
-                value = (value + coefficient(k)) * middle;
-                slope = slope * s + point(k as f64) * coefficient(k);
-            }
+            let Along { value, slope } = enclosed(coefficient(0), trace.order, coefficient, s);
             Along {
-                value: (coefficient(0) + value + slope * (s - middle)) * unit + near,
+                value: value * unit + near,
                 slope: slope * unit,
             }
         })
+    }
+}
+
+/// Where a tube's polynomial of this order is in a range of s, and its slope. A middle, and the mean value theorem: near a fold t
+/// hardly changes, and Horner's rule alone would not show it.
+fn enclosed(
+    start: Interval,
+    order: usize,
+    coefficient: impl Fn(usize) -> Interval,
+    s: Interval,
+) -> Along {
+    let middle = point(s.mid());
+    let (mut value, mut slope) = (point(0.0), point(0.0));
+    for k in (1..order).rev() {
+        value = (value + coefficient(k)) * middle;
+        slope = slope * s + point(k as f64) * coefficient(k);
+    }
+    Along {
+        value: start + value + slope * (s - middle),
+        slope,
     }
 }
 
