@@ -4,6 +4,7 @@ use super::certain_digits;
 use super::columns::{self, DIGITS, written};
 use super::document::{Named, names};
 use super::table::write_joints;
+use super::tolerance::rounded;
 use crate::blocks::{Account, Why, rounded_up};
 use crate::edit::{Alone, Decomposition, Dimension, Dragged, Edited, Ending, Limit, Moved};
 use crate::interval::Interval;
@@ -119,13 +120,13 @@ pub fn edit_in_words(problem: &Problem, edited: &Edited) -> String {
             )
         }
         Ending::Passes(reason) => format!(
-            "Passes: near t = {:.6} of the way ({changes}) branches of figures seem to meet, so that none of \
+            "Passes: near t = {} of the way ({changes}) branches of figures seem to meet, so that none of \
                  them continues this one more than another; proved up to there{clause} ({reason}).{far}",
-            edited.t.0
+            rounded(edited.t.0, f64::floor)
         ),
         Ending::Stopped(reason) => format!(
-            "Stopped: proved up to t = {:.6} of the way ({changes}){clause}, and not further: {reason}.{far}",
-            edited.t.0
+            "Stopped: proved up to t = {} of the way ({changes}){clause}, and not further: {reason}.{far}",
+            rounded(edited.t.0, f64::floor)
         ),
     }
 }

@@ -5,6 +5,7 @@ use super::columns::Grid;
 use super::document::names;
 use super::measured::Measures;
 use super::sweep::frames_to_csv;
+use super::tolerance::rounded;
 use crate::blocks::rounded_up;
 use crate::edit::WayEnd;
 use crate::interval::{Interval, point};
@@ -66,15 +67,24 @@ pub fn motion_to_table(motion: &Motion) -> String {
         return out;
     }
     let mut grid = Grid::new([heading, "at first", "least", "greatest"], |_| true);
+    let mut is_sharp = true;
     for measured in &motion.measured {
-        grid.push(cells(measured));
+        let cells = cells(measured);
+        let mut ends = cells[2..].iter();
+        is_sharp &= ends.all(|end| !end.starts_with(AT_LEAST) && !end.starts_with(AT_MOST));
+        grid.push(cells);
     }
     out += "\n";
     out += &grid.render();
     let _ = writeln!(
         out,
-        "\nNo figure of the way is beyond these values, and one reaches each, proved{}; they differ from the exact ones by at most 1 in the \
+        "\nNo figure of the way is beyond these values, and one reaches each{}, proved{}; they differ from the exact ones by at most 1 in the \
          last digit shown. Angles are in degrees.",
+        if is_sharp {
+            ""
+        } else {
+            " but those at least or at most so great"
+        },
         if motion.is_loop() {
             ""
         } else {
@@ -88,8 +98,12 @@ fn cells(measured: &Measured) -> [String; 4] {
     let first = certain_digits(measured.first);
     let [least, most] = match &measured.bounds {
         Bounds::Between { least, most } => [
-            end_of(least.value, "at least", least.value.inf()),
-            end_of(most.value, "at most", most.value.sup()),
+            end_of(
+                least.value,
+                AT_LEAST,
+                rounded(least.value.inf(), f64::floor),
+            ),
+            end_of(most.value, AT_MOST, rounded(most.value.sup(), f64::ceil)),
         ],
         Bounds::AllTheWay(turns) => {
             let rounds = match turns {
@@ -106,11 +120,14 @@ fn cells(measured: &Measured) -> [String; 4] {
     [measured.name.clone(), first, least, most]
 }
 
+const AT_LEAST: &str = "at least";
+const AT_MOST: &str = "at most";
+
 /// A bound by its certain digits, or by its outer end where few are certain.
-fn end_of(value: Interval, word: &str, outer: f64) -> String {
+fn end_of(value: Interval, word: &str, outer: String) -> String {
     match value.wid() <= 1e-4 * value.mag().max(1.0) {
         true => certain_digits(value),
-        false => format!("{word} {outer:.4}"),
+        false => format!("{word} {outer}"),
     }
 }
 

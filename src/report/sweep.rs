@@ -4,6 +4,7 @@ use super::certain_digits;
 use super::columns::{Grid, written};
 use super::edit::{behind, edit_in_words, limit_in_words, short, write_moved};
 use super::measured::{Measures, Placed};
+use super::tolerance::rounded;
 use crate::edit::{Edited, End, Ending, Moved, Range, Sweep};
 use crate::interval::Interval;
 use crate::problem::Problem;
@@ -43,8 +44,8 @@ fn write_ranges(
         grid.push([
             problem.dimension_name(range.index),
             short(range.value),
-            value_of(&range.low, "≤"),
-            value_of(&range.high, "≥"),
+            value_of(&range.low, "≤", f64::ceil),
+            value_of(&range.high, "≥", f64::floor),
         ]);
     }
     *out += &grid.render();
@@ -67,7 +68,11 @@ fn write_ranges(
          \"≤\" and \"≥\" say that no limit was met up to there, proved, and \"?\" that nothing could be proved beyond.{left_out}"
     )?;
     for range in ranges {
-        for (end, verb) in [(&range.low, "shrinks to"), (&range.high, "grows to")] {
+        let ends = [
+            (&range.low, "shrinks to", f64::ceil as fn(f64) -> f64),
+            (&range.high, "grows to", f64::floor),
+        ];
+        for (end, verb, back) in ends {
             let name = problem.dimension_name(range.index);
             match end {
                 End::Limit(value, limit) => writeln!(
@@ -78,7 +83,8 @@ fn write_ranges(
                 )?,
                 End::Beyond(_) => {}
                 End::Unknown(value, reason) => {
-                    writeln!(out, "{name} {verb} {} at least: {reason}", short(*value))?;
+                    let value = not_beyond(*value, back);
+                    writeln!(out, "{name} {verb} {value} at least: {reason}")?;
                 }
             }
         }
@@ -86,12 +92,21 @@ fn write_ranges(
     Ok(())
 }
 
-fn value_of(end: &End, beyond: &str) -> String {
+fn value_of(end: &End, beyond: &str, back: fn(f64) -> f64) -> String {
     match end {
         End::Limit(value, _) => certain_digits(*value),
         End::Beyond(value) => format!("{beyond} {}", short(*value)),
-        End::Unknown(value, _) => format!("? {}", short(*value)),
+        End::Unknown(value, _) => format!("? {}", not_beyond(*value, back)),
     }
+}
+
+/// Up to where something is proved that is proved up to somewhere in an interval: `back` rounds to where it comes from.
+pub(super) fn not_beyond(value: Interval, back: fn(f64) -> f64) -> String {
+    let end = match back(0.5) > 0.5 {
+        true => value.sup(),
+        false => value.inf(),
+    };
+    rounded(end, back)
 }
 
 /// The edit that a sweep did not get over, if there is one.

@@ -41,8 +41,8 @@ pub fn tolerances_to_table(problem: &Problem, study: &Study) -> String {
 }
 
 const WHAT_IS_PROVED: &str = "\
-No choice goes beyond a worst case, proved, and the figure at a corner of the limits comes as near to it as is said. The rest is to first order, \
-in floats: what a dimension does alone as it goes through its limits, and the root of the sum of the squares of half of that, which is a \
+No choice goes beyond a worst case, proved, and a figure within the limits comes as near to it as is said. The rest is to first order about the \
+nominal figure, in floats: what a dimension does alone as it goes through its limits, and the root of the sum of the squares of half of that, which is a \
 tolerance if the dimensions are independent.
 ";
 
@@ -130,23 +130,26 @@ fn write_measured(
             measured.name
         );
     }
-    writeln!(
-        out,
-        "\n{} is {}; at worst from {} to {}{}; root of the sum of the squares ±{}",
-        measured.name,
-        digits,
+    let ends = [
         rounded(low.inf(), f64::floor),
         rounded(high.sup(), f64::ceil),
-        match (measured.is_attained, measured.gap()) {
-            ([true, true], gap) if gap < 0.01 =>
-                ", and no wider by more than 1 % of that".to_owned(),
-            ([true, true], gap) => format!(
+    ];
+    let gap = measured.gap(ends.each_ref().map(|end| end.parse().unwrap_or(f64::NAN)));
+    writeln!(
+        out,
+        "\n{} is {digits}; at worst from {} to {}{}; {}",
+        measured.name,
+        ends[0],
+        ends[1],
+        match measured.is_attained {
+            [true, true] if gap < 1.0 => format!(
                 ", and no wider by more than {:.0} % of that",
-                (100.0 * gap).ceil()
+                (100.0 * gap).ceil().max(1.0)
             ),
+            [true, true] => String::new(),
             _ => ", which may be too wide: the corners were not reached".to_owned(),
         },
-        short(measured.root_of_squares)
+        squares_in_words(measured.root_of_squares)
     )?;
     let total: f64 = measured.effects.iter().map(|e| e.abs()).sum();
     let mut rows: Vec<usize> = (0..measured.effects.len()).collect();
@@ -178,6 +181,14 @@ fn write_measured(
         )?;
     }
     Ok(())
+}
+
+/// The root of the sum of the squares, or why there is none.
+pub(super) fn squares_in_words(measured: Option<f64>) -> String {
+    match measured {
+        Some(root) => format!("root of the sum of the squares ±{}", short(root)),
+        None => "nothing to first order, as it is at an end of what it can be as drawn".to_owned(),
+    }
 }
 
 /// A number of four digits, for what is known to first order.
@@ -230,20 +241,18 @@ pub fn tolerances_to_csv(problem: &Problem, study: &Study) -> String {
         + "\n";
     for measured in &study.measured {
         let [low, high] = measured.bounds;
-        let numbers = [
-            measured.nominal.mid(),
-            low.inf(),
-            high.sup(),
-            measured.root_of_squares,
-        ];
+        let bounds = [measured.nominal.mid(), low.inf(), high.sup()].map(Some);
         let total: f64 = measured.effects.iter().map(|effect| effect.abs()).sum();
         // Six digits are more than is known to first order.
         let short = |effect: &f64| match effect.abs() > 1e-9 * total {
             true => format!("{effect:.5e}").parse().unwrap_or(*effect),
             false => 0.0,
         };
-        let effects = measured.effects.iter().map(short);
-        let numbers = numbers.into_iter().chain(effects).map(|x| x.to_string());
+        // None where there is no first order.
+        let effects = (0..study.limits.len()).map(|k| measured.effects.get(k).map(short));
+        let numbers = bounds.into_iter().chain([measured.root_of_squares]);
+        let numbers = numbers.chain(effects);
+        let numbers = numbers.map(|x| x.map_or(String::new(), |x| x.to_string()));
         let cells = [quoted(&measured.name), measured.unit.to_owned()]
             .into_iter()
             .chain(numbers);

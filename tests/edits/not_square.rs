@@ -549,3 +549,22 @@ fn what_grows_past_its_tolerance_on_the_way_is_not_met_there() {
         "{said}"
     );
 }
+
+/// Where the figure that would be reached is none, what was left out is told of the figure that is printed, which is the old one; by how much the
+/// other misses it stands in the reason.
+#[test]
+fn what_was_left_out_is_told_of_the_figure_that_is_printed() {
+    let text = "dimension = 2\n[points]\nA = [0, 0]\nB = [4, 0]\nC = [5, 2]\nD = [1, 2]\n[constraints]\nfixed = [\"A\", \"B\"]\n\
+                distances = [[\"B\", \"C\", 2.23606797749979], [\"C\", \"D\", 4], [\"A\", \"D\", 2.23606797749979]]\n\
+                parallel = [[\"A\", \"D\", \"B\", \"C\"], [\"A\", \"B\", \"D\", \"C\"]]\n";
+    let (said, _) = run("edit", text, &["--set", "C-D=5"]);
+    assert!(
+        said.contains("the figure that meets them misses it by at least 1, proved"),
+        "{said}"
+    );
+    assert!(
+        !said.contains("left out and is missed") && !said.contains("left out and are missed"),
+        "{said}"
+    );
+    assert!(said.contains("left out and are met within"), "{said}");
+}

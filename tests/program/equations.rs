@@ -111,3 +111,30 @@ fn equations_are_exported() {
     let (code, said) = run(&["export", "docs/examples/katsura-5.toml", "--to", "phcpack"]);
     assert!(code == Some(0) && said.contains("u1 is u0"), "{said}");
 }
+
+/// Up to where something is proved is rounded to where it comes from: there is no x for an a below 0.
+#[test]
+fn what_is_proved_up_to_somewhere_is_not_said_to_be_proved_beyond() {
+    let directory = tempfile::tempdir().unwrap();
+    for scale in [1, 1000] {
+        let text = format!(
+            "equations = [\"x = sqrt(a)\"]\n[unknowns]\nx = {}\n[parameters]\na = {}\n",
+            f64::from(4 * scale).sqrt(),
+            4 * scale
+        );
+        let file = directory.path().join("a.toml");
+        std::fs::write(&file, text).unwrap();
+        let file = file.to_str().unwrap();
+        let (_, said) = run(&["limits", file]);
+        let (_, value) = said
+            .split_once("a shrinks to ")
+            .unwrap_or_else(|| panic!("{said}"));
+        let value: f64 = value.split(' ').next().unwrap().parse().unwrap();
+        assert!((0.0..1e-6).contains(&value), "{said}");
+        let (_, said) = run(&["edit", file, "--set", "a=0"]);
+        assert!(
+            said.contains("proved up to t = 0.999999 of the way"),
+            "{said}"
+        );
+    }
+}

@@ -113,3 +113,26 @@ fn time_that_is_over_is_no_fault_of_the_file() {
         "{code:?} {error}"
     );
 }
+
+/// Where a bound is not sharp it is not said that a figure reaches it: the angle is not defined where D comes to A, and 150.26 is its
+/// supremum.
+#[test]
+fn what_is_reached_by_no_figure_is_not_said_to_be() {
+    let text = "dimension = 2\n[points]\nA = [4, 4]\nB = [3, 6]\nC = [2, 1]\nD = [0, 4]\n[constraints]\nfixed = [\"A\", \"B\"]\n\
+                squared_distances = [[\"A\", \"C\", 13], [\"B\", \"C\", 26], [\"C\", \"D\", 13]]\n";
+    let directory = tempfile::tempdir().unwrap();
+    let file = directory.path().join("a.toml");
+    std::fs::write(&file, text).unwrap();
+    let file = file.to_str().unwrap();
+    let (_, text, error) = krawl(&["motion", file, "--measure", "angle B D A"]);
+    assert!(text.contains("at most 180.0"), "{text}{error}");
+    assert!(
+        text.contains("one reaches each but those at least or at most so great, proved"),
+        "{text}"
+    );
+    let (_, text, error) = krawl(&["motion", file, "--measure", "B-D"]);
+    assert!(
+        text.contains("and one reaches each, proved"),
+        "{text}{error}"
+    );
+}

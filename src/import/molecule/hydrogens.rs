@@ -65,3 +65,40 @@ impl Hydrogens {
         moved.into()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn hydrogens_go_along_with_what_is_turned_or_mirrored() {
+        let others = vec![
+            [0.0, 0.0, 0.0],
+            [1.4, 0.2, -0.1],
+            [-0.6, 1.3, 0.3],
+            [-0.5, -0.7, 1.2],
+            [2.1, 1.4, 0.6],
+            [3.5, 1.3, -0.4],
+        ];
+        let place = [-0.3, -0.5, -0.9];
+        let hydrogens = Hydrogens::new(vec![(7, place)], others.clone());
+        for mirrored in [1.0, -1.0] {
+            let moved = |[x, y, z]: [f64; 3]| {
+                [
+                    0.6 * x - 0.8 * z + 5.0,
+                    0.8 * x + 0.6 * z,
+                    mirrored * y - 3.0,
+                ]
+            };
+            let figure: Vec<[f64; 3]> = others.iter().map(|&p| moved(p)).collect();
+            let [(line, there)] = hydrogens.placed(&figure).collect::<Vec<_>>()[..] else {
+                panic!("it is one");
+            };
+            assert!(
+                line == 7 && length(minus(there, moved(place))) < 1e-12,
+                "{there:?}"
+            );
+        }
+        assert_eq!(hydrogens.placed(&others).next(), Some((7, place)));
+    }
+}

@@ -76,8 +76,8 @@ keys! {
         greatest: Bounds = bounds(&measured.bounds[1]),
         /// Whether the figures at the corners come near to these.
         attained: [bool; 2] = measured.is_attained,
-        /// The root of the sum of the squares of half the effects.
-        root_of_squares: f64 = measured.root_of_squares,
+        /// The root of the sum of the squares of half the effects; null where there is no first order.
+        root_of_squares: Option<f64> = measured.root_of_squares,
         /// What each dimension does alone, to first order.
         effects: Vec<f64> = measured.effects.clone(),
     }

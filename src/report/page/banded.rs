@@ -4,7 +4,7 @@ use super::reader::{Reader, digits, middle, nothing};
 use super::{Figure, Page, Shape, ShowError, Text, Tone};
 use crate::order::InOrder;
 use crate::report::document::{Bounds, Tolerance};
-use crate::report::tolerance::{rounded, short};
+use crate::report::tolerance::{rounded, squares_in_words};
 
 /// The widest band is drawn about so wide, as a part of the figure.
 const SEEN: f64 = 0.15;
@@ -66,11 +66,11 @@ pub(super) fn page(reader: &Reader, study: &Tolerance) -> Result<Page, ShowError
         page.rows.push((
             name.to_owned(),
             format!(
-                "{}; at worst from {} to {}; root of the sum of the squares ±{}",
+                "{}; at worst from {} to {}; {}",
                 digits(measured.nominal),
                 rounded(measured.least[0], f64::floor),
                 rounded(measured.greatest[1], f64::ceil),
-                short(measured.root_of_squares)
+                squares_in_words(measured.root_of_squares)
             ),
         ));
         let effects = measured.effects.iter().map(|x| x.abs());
@@ -84,7 +84,10 @@ pub(super) fn page(reader: &Reader, study: &Tolerance) -> Result<Page, ShowError
             .filter(|(effect, _)| *effect > 0.005 * all);
         let most =
             most.map(|(effect, dimension)| format!("{dimension} {:.0} %", 100.0 * effect / all));
-        due.push(format!("{name}: {}", most.collect::<Vec<_>>().join(", ")));
+        let most = most.collect::<Vec<_>>().join(", ");
+        if !most.is_empty() {
+            due.push(format!("{name}: {most}"));
+        }
     }
     page.text = vec![
         Text::Paragraph("What it is due to, most first (to first order, in floats):".into()),

@@ -1,10 +1,12 @@
 //! The page of `limits`: the figures at both ends of every dimension's range.
 
-use super::reader::{Reader, digits, middle, nothing};
+use super::reader::{Reader, are_bounds, digits, middle, nothing};
 use super::{Figure, Page, ShowError, Text, Tone};
 use crate::blocks::rounded_up;
+use crate::interval::hull;
 use crate::order::InOrder;
 use crate::report::document::{Limits, RangeOf, wrong};
+use crate::report::sweep::not_beyond;
 
 pub(super) fn page(reader: &Reader, limits: &Limits) -> Result<Page, ShowError> {
     let mut page = reader.page("In the file", "all dimensions as they are")?;
@@ -30,14 +32,22 @@ pub(super) fn page(reader: &Reader, limits: &Limits) -> Result<Page, ShowError> 
     let mut words = Vec::new();
     for (name, range) in ranges {
         let mut values = Vec::new();
-        for (end, which) in [(&range.low, "least"), (&range.high, "largest")] {
+        let ends = [
+            (&range.low, "least", f64::ceil as fn(f64) -> f64),
+            (&range.high, "largest", f64::floor),
+        ];
+        for (end, which, back) in ends {
             let value = end.value;
             match &end.status[..] {
                 "limit" => values.push(digits(value)),
                 "reached" => values.push(format!("{} and beyond", near(middle(value)))),
                 _ => {
                     all = false;
-                    values.push(format!("{} or beyond, not known", near(middle(value))));
+                    let up_to = match are_bounds(&value) {
+                        true => not_beyond(hull(value[0], value[1]), back),
+                        false => "?".to_owned(),
+                    };
+                    values.push(format!("{up_to} or beyond, not known"));
                 }
             }
             // Where no limit was met the figure is one of many.

@@ -17,7 +17,7 @@ pub(super) fn middle([low, high]: Bounds) -> f64 {
 }
 
 /// Whether there is a number between these.
-fn are_bounds([low, high]: &Bounds) -> bool {
+pub(super) fn are_bounds([low, high]: &Bounds) -> bool {
     low <= high && (high - low).is_finite()
 }
 

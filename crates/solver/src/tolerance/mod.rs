@@ -68,26 +68,31 @@ pub struct Measured {
     pub unit: &'static str,
     /// With the dimensions as they are given.
     pub nominal: Interval,
-    /// Enclosures of the least and the greatest value: no choice of the dimensions goes beyond the outer end of each, and the figure at one
-    /// corner of the limits reaches the inner end.
+    /// Enclosures of the least and the greatest value: no choice of the dimensions goes beyond the outer end of each, and a figure at a
+    /// corner of the limits, or the nominal one, reaches the inner end.
     pub bounds: [Interval; 2],
-    /// Whether it does: the path to that corner was proved. Otherwise the inner end is the nominal value's.
+    /// Whether the path to that corner was proved. Otherwise the inner end is the nominal value's.
     pub is_attained: [bool; 2],
     /// Whether it is a dimension that has no limits.
     pub is_given: bool,
     /// The root of the sum of the squares of half of each dimension's effect: a tolerance if the dimensions are independent and lie in their
-    /// limits evenly or in a bell. To first order, in floats.
-    pub root_of_squares: f64,
-    /// For each of the limits by how much it grows, about, from the dimension's least value to its greatest: to first order, in floats.
+    /// limits evenly or in a bell. To first order about the nominal figure, in floats; `None` where there is no first order: an angle of 0 or
+    /// 180 degrees and an area or a length of 0 are at an end of what they can be.
+    pub root_of_squares: Option<f64>,
+    /// For each of the limits by how much it grows, about, from the dimension's least value to its greatest: likewise, and empty then.
     pub effects: Vec<f64>,
 }
 
 impl Measured {
-    /// The greatest part of the whole range by which either bound may be too wide.
-    pub fn gap(&self) -> f64 {
-        let range = self.bounds[1].sup() - self.bounds[0].inf();
-        let gap = self.bounds[0].wid().max(self.bounds[1].wid());
-        if range > 0.0 { gap / range } else { 0.0 }
+    /// The part of a range, which has the bounds in it, by which it may be too wide; infinite where it has no width.
+    pub fn gap(&self, [low, high]: [f64; 2]) -> f64 {
+        let [least, greatest] = &self.bounds;
+        let too_wide = (least.sup() - low) + (high - greatest.inf());
+        if high > low {
+            too_wide / (high - low)
+        } else {
+            f64::INFINITY
+        }
     }
 }
 
@@ -336,7 +341,9 @@ fn measure(
     control: &mut Control,
 ) -> Result<Measured, String> {
     let middle = quantity.key(|p| within.middle(p), 0.0);
-    let (change, effects) = within.change(&slopes(within, quantity, middle.mid()));
+    let (change, _) = within.change(&slopes(within, quantity, |p| within.near(p), middle.mid()));
+    let about = slopes(within, quantity, |p| within.middle(p), middle.mid());
+    let (_, effects) = within.change(&about);
     let all = middle + change;
     if quantity.is_in_degrees() && (all.wid().is_nan() || all.wid() > WHOLE_TURN) {
         return Err(format!(
@@ -360,8 +367,14 @@ fn measure(
             quantity.of_key(quantity.key(|p| figure[p], all.mid()))
         });
         bounds[side] = match side {
-            0 => hull(outer[0].min(inner.sup()), inner.sup()),
-            _ => hull(inner.inf(), outer[1].max(inner.inf())),
+            0 => {
+                let inner = inner.sup().min(nominal.sup());
+                hull(outer[0].min(inner), inner)
+            }
+            _ => {
+                let inner = inner.inf().max(nominal.inf());
+                hull(inner, outer[1].max(inner))
+            }
         };
     }
     // What a key grows by is no more than a slope of the quantity itself.
@@ -371,6 +384,18 @@ fn measure(
     if is_given {
         effects.fill(0.0);
     }
+    // Where it turns back, its slope is between two that are far apart.
+    let steepest = about
+        .iter()
+        .map(|(_, slope)| slope.mag())
+        .fold(0.0, f64::max);
+    let is_smooth = about
+        .iter()
+        .all(|(_, slope)| slope.wid() <= SMOOTH * steepest);
+    let has_first_order = is_given || is_smooth;
+    if !has_first_order {
+        effects.clear();
+    }
     let squares: f64 = effects.iter().map(|effect| (0.5 * effect).powi(2)).sum();
     Ok(Measured {
         name: quantity.name.clone(),
@@ -379,13 +404,21 @@ fn measure(
         bounds,
         is_attained,
         is_given,
-        root_of_squares: squares.sqrt(),
+        root_of_squares: has_first_order.then_some(squares.sqrt()),
         effects,
     })
 }
 
-/// The derivatives of a quantity's key by the unknowns, over all figures.
-fn slopes(within: &Within, quantity: &Quantity, near: f64) -> Vec<(usize, Interval)> {
+/// The slope of something smooth is known to this part of the steepest, of one figure.
+const SMOOTH: f64 = 1e-6;
+
+/// The derivatives of a quantity's key by the unknowns, over all figures with points there.
+fn slopes(
+    within: &Within,
+    quantity: &Quantity,
+    there: impl Fn(usize) -> [Interval; 3],
+    near: f64,
+) -> Vec<(usize, Interval)> {
     let homotopy = within.homotopy();
     let mut out = Vec::new();
     for &q in quantity.points() {
@@ -398,7 +431,7 @@ fn slopes(within: &Within, quantity: &Quantity, near: f64) -> Vec<(usize, Interv
             }
             // An unknown is in the homotopy's unit, and may be the coordinate of several points.
             let along = |p: usize| -> [Along; 3] {
-                let at = within.near(p);
+                let at = there(p);
                 array(|k| {
                     let moves = homotopy.coordinate(p, k) == Some(i);
                     Along {

@@ -358,8 +358,10 @@ impl Parts {
             Some(there) => verdict.and(*there),
             None => verdict,
         };
-        // Of the figure that is reached past others that miss something its own verdict is said.
+        // Of the figure that is reached past others that miss something its own verdict is said; where it is none itself, how the figure stands
+        // from which the edit was to go, and those on the way from there.
         let account = self.account_of(|k| match way.missed.contains_key(&k) {
+            _ if stop.is_some() => with_way(k, self.verdicts[k]),
             true => verdicts[k],
             false => with_way(k, verdicts[k]),
         });
