@@ -343,6 +343,18 @@ impl ProblemBuilder {
         self
     }
 
+    /// How many there are of each part that problems have several of, and where one of them is.
+    pub(super) fn counts(&self) -> [(fn(usize) -> Place, usize); 5] {
+        let distances = self.lengths.len() + self.squared_lengths.len();
+        [
+            (Place::Point, self.points.len()),
+            (Place::Object, self.objects.len()),
+            (Place::Distance, distances),
+            (Place::Constraint, self.constraints.len()),
+            (Place::Orientation, self.orientations.len()),
+        ]
+    }
+
     /// Checks everything and makes the problem.
     pub fn finish(self) -> Result<Problem, ProblemError> {
         check_size(&self.name, self.dimension, self.points.len())?;

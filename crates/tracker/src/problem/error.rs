@@ -82,6 +82,8 @@ pub enum ProblemError {
     /// A name in the table of places that no body has.
     #[error("the table of places: there is no body `{name}`{}", did_you_mean(.nearest))]
     UnknownBody {
+        /// Which place, in the order of the names.
+        index: usize,
         /// The name.
         name: String,
         /// The most similar name that a body has.
@@ -289,7 +291,7 @@ pub const MAX_POINTS: usize = 4000;
 pub const MAX_NAME: usize = 64;
 
 /// A part of the input.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Place {
     /// The problem as a whole.
     Whole,
@@ -313,8 +315,8 @@ pub enum Place {
     Detour,
     /// An object, by index.
     Object(usize),
-    /// Where a body is drawn.
-    Pose,
+    /// Where a body is drawn, by index in the order of the bodies' names.
+    Pose(usize),
     /// A constraint that is no distance between points, by index.
     Constraint(usize),
     /// The sign of some points, by index.
@@ -338,7 +340,7 @@ impl ProblemError {
     pub fn place(&self) -> Place {
         match self {
             Self::Dimension(_) => Place::Dimension,
-            Self::UnknownBody { .. } => Place::Pose,
+            Self::UnknownBody { index, .. } => Place::Pose(*index),
             Self::BadName { place, .. }
             | Self::Number { place, .. }
             | Self::UnknownPoint { place, .. } => *place,
