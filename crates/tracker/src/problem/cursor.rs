@@ -223,16 +223,17 @@ impl<'a> At<'a> {
 
     /// What is wrong here.
     pub(super) fn fault(&self, why: impl Display) -> FileError {
-        let colon = if self.key.is_empty() { "" } else { ": " };
-        let text = format!("{}{colon}{why}", self.key);
+        let text = format!("{}: {why}", self.key);
         FileError::new(self.source.file, self.line, text)
     }
 
     /// What is wrong with the problem, which is said here.
     pub(super) fn refused(&self, error: ProblemError) -> FileError {
-        FileError {
-            problem: Some(Box::new(error.clone())),
-            ..self.fault(error)
+        let mut fault = self.fault(&error);
+        if self.key.is_empty() {
+            fault.text = error.to_string();
         }
+        fault.problem = Some(error);
+        fault
     }
 }

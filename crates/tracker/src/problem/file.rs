@@ -28,7 +28,7 @@ pub struct FileError {
     /// The line, counted from 1, where there is one.
     pub line: Option<usize>,
     /// What is wrong with points, distances and homotopy, where all of them could be read.
-    pub problem: Option<Box<ProblemError>>,
+    pub problem: Option<ProblemError>,
     /// What is wrong, with the key where there is one.
     pub text: String,
 }
@@ -242,7 +242,7 @@ impl<'a> Reader<'a> {
             match at.item.as_integer() {
                 Some(d @ (2 | 3)) => d as usize,
                 // Other numbers are the builder's to refuse; it cannot hold all of them.
-                Some(d) => return Err(at.refused(ProblemError::Dimension(d.to_string()))),
+                Some(d) => return Err(at.refused(ProblemError::dimension(d))),
                 None => return Err(at.wrong("2 or 3")),
             }
         };
@@ -360,7 +360,7 @@ impl<'a> Reader<'a> {
         let points = table.entries()?;
         // Before numbers are made of them: a file has room for many.
         if points.len() > MAX_POINTS {
-            let error = ProblemError::TooManyPoints(points.len());
+            let error = ProblemError::too_many_points(points.len());
             return Err(table.named("").refused(error));
         }
         for (index, (name, at)) in points.into_iter().enumerate() {
@@ -368,12 +368,10 @@ impl<'a> Reader<'a> {
             let list = at.list("coordinates in brackets")?;
             let here = at.named("points");
             if list.len() != self.builder.dimension {
-                return Err(here.refused(ProblemError::CoordinateCount {
-                    index,
-                    name: name.chars().take(MAX_NAME).collect(),
-                    given: list.len(),
-                    wanted: self.builder.dimension,
-                }));
+                let name: String = name.chars().take(MAX_NAME).collect();
+                let (given, wanted) = (list.len(), self.builder.dimension);
+                let error = ProblemError::coordinates(index, &name, given, wanted);
+                return Err(here.refused(error));
             }
             let coordinates = list.iter().map(At::number).collect::<Result<Vec<_>, _>>()?;
             self.add(&here, |builder| Ok(builder.point(name, coordinates)))?;

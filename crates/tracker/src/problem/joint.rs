@@ -11,7 +11,6 @@ use crate::interval::vector::{cross, dot, length, minus, out_of};
 use crate::map::Map;
 use crate::order::InOrder as _;
 use crate::places::{Each as _, array};
-use crate::statement::nearest;
 use std::collections::HashMap;
 
 /// How a joint is written.
@@ -158,12 +157,10 @@ impl ProblemBuilder {
                 }
                 _ => {
                     let is_body = |o: &&Object| matches!(o.shape, Shape::Body { .. });
-                    let mut bodies = objects.iter().filter(is_body).map(|o| o.name.as_str());
-                    return Err(ProblemError::UnknownBody {
-                        index,
-                        name: name.clone(),
-                        nearest: nearest(name, &mut bodies),
-                    });
+                    let bodies = objects.iter().filter(is_body).map(|o| o.name.as_str());
+                    let what = "the table of places";
+                    let place = Place::Pose(index);
+                    return Err(ProblemError::unknown(place, what, ("body", name), bodies));
                 }
             }
         }

@@ -145,7 +145,7 @@ fn object(
     builder: ProblemBuilder,
 ) -> Result<ProblemBuilder, FileError> {
     let wrong = || at.wrong(wanted(table));
-    if table == "unknowns" {
+    if table == "unknowns" && at.item.is_value() {
         return Ok(builder.unknown(name, at.number()?));
     }
     if table == "joints" {
@@ -159,7 +159,7 @@ fn object(
             _ => Err(wrong()),
         };
     }
-    if !at.item.is_table_like() {
+    if !at.item.is_table_like() || table == "unknowns" {
         return Err(wrong());
     }
     let part = |part: &str| at.get(part).ok_or_else(wrong);

@@ -119,7 +119,7 @@ impl Problem {
         };
         for table in super::vocabulary::TABLES {
             let objects = self.objects.iter().filter(|object| {
-                let what = super::draft::what(self.dimension, &object.shape);
+                let what = object.kind(self.dimension);
                 table.strip_suffix('s') == Some(what) || (table, what) == ("bodies", "body")
             });
             for (index, object) in objects.enumerate() {
