@@ -85,10 +85,7 @@ pub(super) fn number<N: Numeral>(value: N) -> Number {
 impl Problem {
     /// Where the sketch has its points, in floats.
     pub fn places(&self) -> Vec<[f64; 3]> {
-        let points = self.points.iter();
-        points
-            .map(|p| p.sketch.each_ref().map(Decimal::to_f64))
-            .collect()
+        self.points.iter().map(Point::place).collect()
     }
 
     /// A problem of distances with some of them, by index, led in the same way: with the same reference, and the same bend if that is one of them.
@@ -205,18 +202,17 @@ impl Problem {
         if self.is_distances_only() {
             return check_structure(self.dimension, &self.points, &self.distances);
         }
-        constraint::check_structure(self).map_err(|(owner, fault)| match owner {
-            Some((Owner::Object(index), true)) => self.wrong_object(index, &fault),
-            Some((Owner::Constraint(index), true)) => {
-                self.wrong_constraint(index, &self.constraint_name(index), &fault)
-            }
-            Some((Owner::Object(index), false)) => {
-                ProblemError::structure(Place::Object(index), fault)
-            }
-            Some((Owner::Constraint(index), false)) => {
-                ProblemError::structure(Place::Constraint(index), fault)
-            }
-            None => ProblemError::structure(Place::Distances, fault),
+        constraint::check_structure(self).map_err(|(owner, fault)| {
+            let place = match owner {
+                Some((Owner::Object(index), true)) => return self.wrong_object(index, &fault),
+                Some((Owner::Constraint(index), true)) => {
+                    return self.wrong_constraint(index, &self.constraint_name(index), &fault);
+                }
+                Some((Owner::Object(index), false)) => Place::Object(index),
+                Some((Owner::Constraint(index), false)) => Place::Constraint(index),
+                None => Place::Distances,
+            };
+            ProblemError::structure(place, fault)
         })
     }
 }
@@ -338,7 +334,7 @@ impl ProblemBuilder {
 
         let distances = self.finished_distances(find)?;
         check_distances(&points, &distances)?;
-        let mut objects = self.finished_objects(&index_of)?;
+        let mut objects = self.finished_objects(find)?;
         self.place_bodies(&points, &mut objects)?;
         let constraints = self.finished_constraints(&points, &objects)?;
         let orientations = self.orientations.iter().enumerate();
@@ -388,15 +384,19 @@ impl ProblemBuilder {
                 at.ok_or_else(|| not_a_distance(&format!("{a}-{b}")))?
             }
         };
-        let choice = |number: Option<Number>, place, what: &str, otherwise: i32| match number {
-            None => Ok(Decimal::from(otherwise)),
-            Some(number) => number.map_err(ProblemError::number(place, what.to_owned())),
+        let choice = |number: &Option<Number>, place, what: &str| {
+            let number = number.clone().transpose();
+            number.map_err(ProblemError::number(place, what.to_owned()))
         };
-        let bend_coefficient = match self.bend_coefficient.clone() {
-            None => bend::default_coefficient(&distances),
-            c => choice(c, Place::BendCoefficient, "the bend's coefficient", 0)?,
-        };
-        let detour = choice(self.detour.clone(), Place::Detour, "the detour", 0)?;
+        let coefficient = &self.bend_coefficient;
+        let coefficient = choice(
+            coefficient,
+            Place::BendCoefficient,
+            "the bend's coefficient",
+        )?;
+        let bend_coefficient = coefficient.unwrap_or_else(|| bend::default_coefficient(&distances));
+        let detour = choice(&self.detour, Place::Detour, "the detour")?;
+        let detour = detour.unwrap_or(Decimal::from(0));
         let mut problem = Problem {
             labels: Default::default(),
             tolerances: Default::default(),

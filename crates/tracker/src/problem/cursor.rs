@@ -185,7 +185,7 @@ impl<'a> At<'a> {
                     true => Some(format!("constraints.{name}")),
                     false => nearest(name, &mut known.iter().copied()),
                 };
-                return Err(at.fault(format!("there is no such key{}", did_you_mean(&nearest))));
+                return Err(at.fault(format!("there is no such key{}", did_you_mean(nearest))));
             }
         }
         Ok(())

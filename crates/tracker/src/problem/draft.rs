@@ -125,22 +125,14 @@ impl ProblemBuilder {
     ///     .finish().unwrap();
     /// assert_eq!(problem.objects.len(), 1);
     /// ```
-    pub fn body<N, P, C>(self, name: &str, points: P) -> Self
+    pub fn body<N, P, S, C>(self, name: &str, points: P) -> Self
     where
         N: Numeral,
+        S: Into<String>,
         C: IntoIterator<Item = N>,
-        P: IntoIterator<Item = (&'static str, C)>,
+        P: IntoIterator<Item = (S, C)>,
     {
-        let points = points
-            .into_iter()
-            .map(|(p, at)| (p.to_owned(), numbers(at)));
-        let points = points.collect();
-        self.object(name, DraftShape::Body(points))
-    }
-
-    /// A rigid body with names that are made at run time.
-    pub(super) fn body_of(self, name: &str, points: Vec<(String, Vec<Decimal>)>) -> Self {
-        let points = points.into_iter().map(|(p, at)| (p, numbers(at)));
+        let points = points.into_iter().map(|(p, at)| (p.into(), numbers(at)));
         let points = points.collect();
         self.object(name, DraftShape::Body(points))
     }
@@ -215,7 +207,7 @@ impl ProblemBuilder {
     /// The objects, with their names looked up.
     pub(super) fn finished_objects(
         &self,
-        points: &HashMap<&str, usize>,
+        find: impl Fn(Place, &str, &str) -> Result<usize, ProblemError>,
     ) -> Result<Vec<Object>, ProblemError> {
         // In the order of the tables of a file.
         let mut drafts: Vec<&DraftObject> = self.objects.iter().collect();
@@ -231,13 +223,7 @@ impl ProblemBuilder {
                 if only.is_some_and(|dimension| dimension != self.dimension) {
                     return Err(wrong_space(place, what, &draft.name, self.dimension));
                 }
-                let find = |name: &str| {
-                    let unknown = || {
-                        let known = points.keys().copied();
-                        ProblemError::unknown(place, &shown, ("point", name), known)
-                    };
-                    points.get(name).copied().ok_or_else(unknown)
-                };
+                let find = |name: &str| find(place, &shown, name);
                 let given = |number: &Number| {
                     let number = number.clone();
                     number.map_err(ProblemError::number(place, &shown))
@@ -405,7 +391,7 @@ pub(super) fn three<F: FnOnce(DecimalError) -> ProblemError>(
 }
 
 fn unknown_kind(kind: &str, nearest: Option<String>) -> ProblemError {
-    let nearest = did_you_mean(&nearest);
+    let nearest = did_you_mean(nearest);
     let text = format!("there is no kind of constraints `{kind}`{nearest}");
     ProblemError::at(Place::Distances, text)
 }

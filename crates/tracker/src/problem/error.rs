@@ -110,7 +110,7 @@ impl ProblemError {
         known: impl IntoIterator<Item = &'a str>,
     ) -> Self {
         let shown: String = name.chars().take(MAX_NAME).collect();
-        let nearest = did_you_mean(&nearest(name, &mut known.into_iter()));
+        let nearest = did_you_mean(nearest(name, &mut known.into_iter()));
         Self::at(
             place,
             format!("{what}: there is no {meant} `{shown}`{nearest}"),
@@ -129,8 +129,6 @@ impl ProblemError {
 }
 
 /// `; did you mean ...?`, or nothing.
-pub(super) fn did_you_mean(nearest: &Option<String>) -> String {
-    nearest
-        .as_ref()
-        .map_or(String::new(), |name| format!("; did you mean `{name}`?"))
+pub(super) fn did_you_mean(nearest: Option<String>) -> String {
+    nearest.map_or(String::new(), |name| format!("; did you mean `{name}`?"))
 }

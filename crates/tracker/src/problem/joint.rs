@@ -49,9 +49,8 @@ impl Pose {
     }
 
     fn floats(&self) -> Motion {
-        let of = |v: &[Decimal; 3]| v.each_ref().each(|x| x.to_f64());
-        let (z, x) = (of(&self.z), of(&self.x));
-        (of(&self.at), frame_of(z, x))
+        let [at, z, x] = [&self.at, &self.z, &self.x].map(floats);
+        (at, frame_of(z, x))
     }
 
     fn of_floats((at, axes): &Motion) -> Self {
@@ -63,6 +62,10 @@ impl Pose {
             x: rounded(&axes[0]),
         }
     }
+}
+
+fn floats(of: &[Decimal; 3]) -> [f64; 3] {
+    of.each_ref().each(|x| x.to_f64())
 }
 
 /// The axes of a frame with this z axis, and the x axis on that side of it; the identity's where the two are parallel.
@@ -214,11 +217,8 @@ impl ProblemBuilder {
                 local,
                 ..
             } if !members.is_empty() => {
-                let of = |v: &[Decimal; 3]| v.each_ref().each(|x| x.to_f64());
-                (
-                    minus(of(&points[members[0]].sketch), of(&local[0])),
-                    identity.1,
-                )
+                let at = minus(points[members[0]].place(), floats(&local[0]));
+                (at, identity.1)
             }
             _ => identity,
         };
@@ -298,12 +298,8 @@ fn fitted(
             (at, frame_of(cross(x, y), x))
         }
     };
-    let of = |v: &[Decimal; 3]| v.each_ref().each(|x| x.to_f64());
-    let there: Vec<_> = base
-        .iter()
-        .map(|&k| of(&points[members[k]].sketch))
-        .collect();
-    let here: Vec<_> = base.iter().map(|&k| of(&local[k])).collect();
+    let there: Vec<_> = base.iter().map(|&k| points[members[k]].place()).collect();
+    let here: Vec<_> = base.iter().map(|&k| floats(&local[k])).collect();
     let [there, here] = [there, here].map(|places| frame(places[0], &places[1..]));
     Some(then(&there, &back(&here)))
 }
@@ -482,7 +478,7 @@ impl Robot<'_> {
     /// Adds its bodies: `name_0`, which is the first, to `name_n`.
     pub fn add_bodies(&self, builder: ProblemBuilder) -> ProblemBuilder {
         (0..=self.rows.len()).fold(builder, |builder, k| {
-            builder.body_of(&format!("{}_{k}", self.name), Vec::new())
+            builder.body(&format!("{}_{k}", self.name), [("", [0]); 0])
         })
     }
 

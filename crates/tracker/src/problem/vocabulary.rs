@@ -145,8 +145,9 @@ fn object(
     builder: ProblemBuilder,
 ) -> Result<ProblemBuilder, FileError> {
     let wrong = || at.wrong(wanted(table));
-    if table == "unknowns" && at.item.is_value() {
-        return Ok(builder.unknown(name, at.number()?));
+    if table == "unknowns" {
+        let value = Some(at).filter(|at| at.item.is_value());
+        return Ok(builder.unknown(name, value.ok_or_else(wrong)?.number()?));
     }
     if table == "joints" {
         return joint::joint(name, at, builder);
@@ -159,7 +160,7 @@ fn object(
             _ => Err(wrong()),
         };
     }
-    if !at.item.is_table_like() || table == "unknowns" {
+    if !at.item.is_table_like() {
         return Err(wrong());
     }
     let part = |part: &str| at.get(part).ok_or_else(wrong);
@@ -191,8 +192,8 @@ fn object(
         }
         _ => {
             let members = at.entries()?.into_iter();
-            let members = members.map(|(point, _)| Ok((point.to_owned(), numbers(point)?)));
-            builder.body_of(name, members.collect::<Result<_, FileError>>()?)
+            let members = members.map(|(point, _)| Ok((point, numbers(point)?)));
+            builder.body(name, members.collect::<Result<Vec<_>, FileError>>()?)
         }
     })
 }
