@@ -36,3 +36,5 @@ pub use check::{Rigidity, rigidity, rigidity_row};
 pub use error::{MAX_NAME, MAX_POINTS, Place, ProblemError};
 pub use file::{FileError, MAX_FILE_SIZE};
 pub use published::Published;
+#[doc(hidden)]
+pub use write::number as toml_number;

@@ -223,7 +223,7 @@ fn quoted(text: &str) -> String {
 
 /// A decimal in TOML's grammar for floats: a digit on either side of the point, no zeros
 /// in front.
-fn number(decimal: &Decimal) -> String {
+pub fn number(decimal: &Decimal) -> String {
     let text = decimal.text();
     let (sign, unsigned) = match text.strip_prefix('-') {
         Some(unsigned) => ("-", unsigned),
