@@ -8,7 +8,7 @@ use krawl::blocks::{
 use krawl::edit::{Decomposition, Standing, TooMany};
 use krawl::import::{self, Format, Listed};
 use krawl::plan::Plan;
-use krawl::problem::{DEPENDS, FileFault, Object, Problem, Shape, Target, counted};
+use krawl::problem::{DEPENDS, Object, Problem, Shape, Target, counted};
 use krawl::remarks::{in_words, moves, remarks};
 use krawl::report::{decomposition_in_words, freedom_of_sketch_in_words};
 use krawl::system::{GaugeError, Homotopy};
@@ -202,9 +202,7 @@ impl Loose {
             Some(made) => Problem::parse(&made.ok()?, &input::name(file)).err()?,
             None => Problem::read(file).err()?,
         };
-        let FileFault::Problem { error: fault, .. } = &*error.fault else {
-            return None;
-        };
+        let fault = error.problem?;
         let problem = input::load(file, &Default::default()).ok()?.problem;
         let (found, standing) = Decomposition::led(&problem).ok()?;
         Some(Loose {

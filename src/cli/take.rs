@@ -91,7 +91,7 @@ impl Taken {
     fn off_sketch(&self, problem: &Problem) -> f64 {
         let pairs = self.points.iter().zip(&problem.points);
         let squares = pairs.flat_map(|(at, point)| {
-            let sketch = point.sketch.each_ref().each(|x| x.to_f64());
+            let sketch = point.place();
             std::array::from_fn::<f64, 3, _>(|k| (at[k] - sketch[k]).powi(2))
         });
         let objects = self.objects.iter().zip(&problem.objects);
@@ -228,10 +228,11 @@ fn rewritten(
     let loaded = input::load_again(file, which)?;
     let of_point = |name: &str| problem.points.iter().position(|p| p.name == name);
     let of_object = |name: &str| problem.objects.iter().position(|o| o.name == name);
-    let points = loaded.problem.points.iter().map(|point| {
-        let sketch = || point.sketch.each_ref().each(|x| x.to_f64());
-        of_point(&point.name).map_or_else(sketch, |p| taken.points[p])
-    });
+    let points = loaded
+        .problem
+        .points
+        .iter()
+        .map(|point| of_point(&point.name).map_or_else(|| point.place(), |p| taken.points[p]));
     let objects = loaded.problem.objects.iter().map(|object| {
         let there = of_object(&object.name).and_then(|o| taken.objects.get(o));
         // What there is none of stays as it is.

@@ -137,10 +137,8 @@ impl Explored<'_> {
         let (sketch, path) = (contents.sketches.get(&id)?, contents.paths.get(&id)?);
         let (problem, way) = (self.problem(), self.explorer.way(sketch.way));
         let trace = self.traced(id).map(|path| &path.trace);
-        let own = problem.points.iter();
-        let own = own.map(|p| p.sketch.each_ref().each(|x| x.to_f64()));
         let places = sketch.places();
-        let places = places.map_or_else(|| own.collect(), <[[f64; 3]]>::to_vec);
+        let places = places.map_or_else(|| problem.places(), <[[f64; 3]]>::to_vec);
         Some(PathFollowed {
             status: path.end.name().to_owned(),
             from: sketch

@@ -325,12 +325,7 @@ mod tests {
     fn coordinates_are_written_in_their_columns() {
         let text = peptide();
         let found = chain(&text, 0).unwrap();
-        let old = found
-            .problem
-            .points
-            .iter()
-            .map(|p| p.sketch.each_ref().map(|x| x.to_f64()));
-        let mut points: Vec<[f64; 3]> = old.collect();
+        let mut points = found.problem.places();
         let rewritten =
             |points: &[[f64; 3]]| written(&found, text.as_bytes(), &Figure { points, radii: &[] });
         let same = rewritten(&points).unwrap();

@@ -3,7 +3,7 @@
 use crate::constraint::order_of_kind;
 use crate::interval::vector::cross;
 use crate::order::InOrder;
-use crate::places::{Each as _, array};
+use crate::places::array;
 use crate::problem::{Constraint, Decimal, Item, Problem};
 
 /// The problem with its reference held, so that its equations can be cut into blocks as those of a problem in its own frame
@@ -13,7 +13,7 @@ pub fn pinned(problem: &Problem) -> Option<Problem> {
     let reference = &problem.homotopy.reference;
     let &first = reference.first()?;
     let d = problem.dimension;
-    let place = |p: usize| problem.points[p].sketch.each_ref().each(Decimal::to_f64);
+    let place = |p: usize| problem.points[p].place();
     let from_first = |p: usize| -> [f64; 3] {
         let (a, b) = (place(first), place(p));
         array(|k| b[k] - a[k])

@@ -115,7 +115,7 @@ fn flat(problem: &Problem, system: &System, rows: &[usize]) -> Vec<Vec<String>> 
     let mut places: Vec<([f64; 3], &str)> = Vec::new();
     for (p, point) in problem.points.iter().enumerate() {
         let own = &system.coordinates[p * d..(p + 1) * d];
-        let place = point.sketch.each_ref().each(|x| x.to_f64());
+        let place = point.place();
         if own.iter().any(|u| unknowns.contains(u)) && places.iter().all(|(at, _)| *at != place) {
             places.push((place, &point.name));
         }

@@ -4,7 +4,7 @@ use crate::constraint::{Arguments, LineName, is_opposite_nearer};
 use crate::interval::{Interval, Real};
 use crate::order::InOrder;
 use crate::places::Each as _;
-use crate::problem::{Constraint, Decimal, Problem, Target};
+use crate::problem::{Constraint, Decimal, Problem, Target, toml_number};
 use crate::rational::Rational;
 use crate::system::Located;
 use num_bigint::BigInt;
@@ -122,7 +122,7 @@ pub fn rewrite(
             None => said(text, value).as_ref() == Some(wanted),
         };
         if !is_said {
-            put(value, toml_number(wanted.text()))?;
+            put(value, toml_number(wanted))?;
         }
     }
     let constraints = table(root, "constraints");
@@ -181,7 +181,7 @@ pub fn rewrite(
             .ok_or_else(|| other(key))?;
         let before = said(text, number);
         if before.as_ref() != Some(wanted) {
-            put(number, toml_number(wanted.text()))?;
+            put(number, toml_number(wanted))?;
             if let Some((which, ends)) =
                 before.and_then(|b| turned_round(problem, constraint, (&b, wanted)))
             {
@@ -218,7 +218,7 @@ pub fn rewrite(
             (Target::SquaredLength(_), false) => return Err(other(&name())),
         };
         if said(text, number).as_ref() != Some(&wanted) {
-            put(number, toml_number(wanted.text()))?;
+            put(number, toml_number(&wanted))?;
         }
     }
 
@@ -320,24 +320,6 @@ fn float(x: f64) -> String {
     } else {
         format!("{x:?}")
     }
-}
-
-/// A decimal in TOML's grammar: a digit on either side of the point, no zeros in front, no plus.
-fn toml_number(text: &str) -> String {
-    let (mantissa, exponent) = match text.find(['e', 'E']) {
-        Some(at) => (&text[..at], &text[at..]),
-        None => (text, ""),
-    };
-    let mantissa = mantissa.trim_start_matches('+');
-    let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
-    let (sign, whole) = match whole.strip_prefix('-') {
-        Some(whole) => ("-", whole),
-        None => ("", whole),
-    };
-    let whole = whole.trim_start_matches('0');
-    let whole = if whole.is_empty() { "0" } else { whole };
-    let fraction = if fraction.is_empty() { "0" } else { fraction };
-    format!("{sign}{whole}.{fraction}{exponent}")
 }
 
 /// An angle set to any number of degrees as it is without a sense of turn, which the places of points tell: between 0 and 180.

@@ -285,7 +285,7 @@ pub(crate) fn lengths(problem: &Problem, quantities: &[Quantity]) -> Vec<[usize;
 
 /// A length as it is drawn.
 fn drawn(problem: &Problem, ends: [usize; 2]) -> f64 {
-    let [a, b] = ends.map(|p| problem.points[p].sketch.each_ref().map(Decimal::to_f64));
+    let [a, b] = ends.map(|p| problem.points[p].place());
     distance(a, b)
 }
 

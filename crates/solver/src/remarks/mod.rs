@@ -25,6 +25,7 @@ mod twins;
 mod words;
 
 use crate::problem::{Item, Object, Problem};
+use crate::statement::neighbours;
 
 pub use moving::{Moves, moves};
 pub(crate) use target::detour;
@@ -174,12 +175,8 @@ fn touched(problem: &Problem) -> Vec<bool> {
 
 /// For each point the points joined to it, in order, with the index of the distance.
 fn joined(problem: &Problem) -> Vec<Vec<(usize, usize)>> {
-    let mut joined = vec![Vec::new(); problem.points.len()];
-    for (index, distance) in problem.distances.iter().enumerate() {
-        let [a, b] = distance.points;
-        joined[a].push((b, index));
-        joined[b].push((a, index));
-    }
+    let pairs = problem.distances.iter().map(|d| d.points);
+    let mut joined = neighbours(problem.points.len(), pairs);
     for all in &mut joined {
         all.sort_unstable();
     }

@@ -68,7 +68,7 @@ fn angles_between_given_lengths_have_the_form_of_distances() {
         let mut ends = all[homotopy.equations - 1].points;
         ends.sort_unstable();
         assert_eq!(ends, [0, 2]);
-        let at = |p: usize| problem.points[p].sketch.each_ref().each(|x| x.to_f64());
+        let at = |p: usize| problem.points[p].place();
         let arrow = |to: usize| -> [f64; 3] { array(|k| at(to)[k] - at(1)[k]) };
         let (u, v) = (arrow(0), arrow(2));
         let product = dot(u, v);

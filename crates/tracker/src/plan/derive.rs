@@ -3,6 +3,7 @@
 use super::Plan;
 use crate::order::InOrder;
 use crate::places::Each as _;
+use crate::statement::neighbours;
 use crate::system::{Edge, Homotopy};
 use std::cmp::Reverse;
 use std::collections::{BinaryHeap, HashSet};
@@ -68,12 +69,6 @@ pub(super) struct Graph {
 
 impl Graph {
     fn new(homotopy: &Homotopy, edges: &[Edge]) -> Self {
-        let mut neighbours = vec![Vec::new(); homotopy.points];
-        for (e, edge) in edges.iter().enumerate() {
-            let [a, b] = edge.points;
-            neighbours[a].push((b, e));
-            neighbours[b].push((a, e));
-        }
         let in_sketch = |(e, edge): (usize, &Edge)| match homotopy.lengths.get(e) {
             Some(length) => length.value(0.0),
             None => {
@@ -85,7 +80,7 @@ impl Graph {
         Graph {
             dimension: homotopy.dimension,
             lengths: edges.iter().enumerate().map(in_sketch).collect(),
-            neighbours,
+            neighbours: neighbours(homotopy.points, edges.iter().map(|edge| edge.points)),
             reference: homotopy.gauge.reference.clone(),
         }
     }

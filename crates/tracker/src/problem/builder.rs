@@ -1,7 +1,7 @@
 //! Problems made in code, checked as those from files are.
 
 use super::check::{check_structure, coincide, collinear};
-use super::draft::{DraftConstraint, DraftObject, check_names, what};
+use super::draft::{DraftConstraint, DraftObject, check_names, three};
 use super::error::{MAX_NAME, MAX_POINTS, Place};
 use super::joint::Drawn;
 use super::{
@@ -10,8 +10,8 @@ use super::{
 };
 use crate::constraint::{self, Owner};
 use crate::places::Each as _;
-use crate::statement::nearest;
-use std::collections::HashMap;
+use crate::statement::{counted, either};
+use std::collections::{HashMap, HashSet};
 
 /// Collects the parts of a problem; [`ProblemBuilder::finish`] checks them together.
 ///
@@ -85,10 +85,7 @@ pub(super) fn number<N: Numeral>(value: N) -> Number {
 impl Problem {
     /// Where the sketch has its points, in floats.
     pub fn places(&self) -> Vec<[f64; 3]> {
-        let points = self.points.iter();
-        points
-            .map(|p| p.sketch.each_ref().map(Decimal::to_f64))
-            .collect()
+        self.points.iter().map(Point::place).collect()
     }
 
     /// A problem of distances with some of them, by index, led in the same way: with the same reference, and the same bend if that is one of them.
@@ -159,34 +156,13 @@ impl Problem {
     /// ```
     pub fn check(&self) -> Result<(), ProblemError> {
         check_size(&self.name, self.dimension, self.points.len())?;
-        let mut seen = HashMap::new();
-        for (index, point) in self.points.iter().enumerate() {
-            check_name(Place::Point(index), &point.name)?;
-            if seen.insert(point.name.as_str(), index).is_some() {
-                let name = point.name.clone();
-                return Err(ProblemError::RepeatedPoint { index, name });
+        check_points(self.dimension, &self.points)?;
+        let in_range = |place, what: &str, index: usize| match index < self.points.len() {
+            true => Ok(()),
+            false => {
+                let name = format!("no. {index}");
+                Err(ProblemError::unknown(place, what, ("point", &name), []))
             }
-            let flat = self.dimension == 3 || point.sketch[2] == Decimal::from(0);
-            if !flat {
-                return Err(ProblemError::CoordinateCount {
-                    index,
-                    name: point.name.clone(),
-                    given: 3,
-                    wanted: 2,
-                });
-            }
-        }
-        let in_range = |place, what: &str, index: usize| {
-            if index < self.points.len() {
-                return Ok(());
-            }
-            Err(ProblemError::UnknownPoint {
-                place,
-                objects: false,
-                what: what.to_owned(),
-                name: format!("no. {index}"),
-                nearest: None,
-            })
         };
         for (index, distance) in self.distances.iter().enumerate() {
             for point in distance.points {
@@ -205,16 +181,13 @@ impl Problem {
             in_range(Place::Reference, "the reference", point)?;
         }
         if self.is_distances_only() && self.homotopy.bend >= self.distances.len() {
-            let name = format!("no. {}", self.homotopy.bend);
-            return Err(ProblemError::BendNotADistance(name));
+            return Err(not_a_distance(&format!("no. {}", self.homotopy.bend)));
         }
         check_sketch(&self.points, &self.distances)?;
         let own = constraint::frame_of(self).frame;
         if own != self.is_absolute() {
-            return Err(ProblemError::ReferenceCount {
-                given: self.homotopy.reference.len(),
-                wanted: if own { 0 } else { self.dimension },
-            });
+            let wanted = if own { 0 } else { self.dimension };
+            return Err(reference_count(self.homotopy.reference.len(), wanted));
         }
         if !own {
             check_enough_points(self.dimension, self.points.len())?;
@@ -229,31 +202,17 @@ impl Problem {
         if self.is_distances_only() {
             return check_structure(self.dimension, &self.points, &self.distances);
         }
-        constraint::check_structure(self).map_err(|(owner, fault)| match owner {
-            Some((Owner::Object(index), true)) => ProblemError::Object {
-                index,
-                what: what(self.dimension, &self.objects[index].shape),
-                name: self.objects[index].name.clone(),
-                fault,
-            },
-            Some((Owner::Constraint(index), true)) => ProblemError::Constraint {
-                index,
-                name: self.constraint_name(index),
-                fault,
-                takes: constraint::kind(&self.constraints[index].kind).map_or("", |k| k.takes),
-            },
-            Some((Owner::Object(index), false)) => ProblemError::System {
-                place: Place::Object(index),
-                fault,
-            },
-            Some((Owner::Constraint(index), false)) => ProblemError::System {
-                place: Place::Constraint(index),
-                fault,
-            },
-            None => ProblemError::System {
-                place: Place::Distances,
-                fault,
-            },
+        constraint::check_structure(self).map_err(|(owner, fault)| {
+            let place = match owner {
+                Some((Owner::Object(index), true)) => return self.wrong_object(index, &fault),
+                Some((Owner::Constraint(index), true)) => {
+                    return self.wrong_constraint(index, &self.constraint_name(index), &fault);
+                }
+                Some((Owner::Object(index), false)) => Place::Object(index),
+                Some((Owner::Constraint(index), false)) => Place::Constraint(index),
+                None => Place::Distances,
+            };
+            ProblemError::structure(place, fault)
         })
     }
 }
@@ -343,31 +302,39 @@ impl ProblemBuilder {
         self
     }
 
+    /// How many there are of each part that problems have several of, and where one of them is.
+    pub(super) fn counts(&self) -> [(fn(usize) -> Place, usize); 5] {
+        let distances = self.lengths.len() + self.squared_lengths.len();
+        [
+            (Place::Point, self.points.len()),
+            (Place::Object, self.objects.len()),
+            (Place::Distance, distances),
+            (Place::Constraint, self.constraints.len()),
+            (Place::Orientation, self.orientations.len()),
+        ]
+    }
+
     /// Checks everything and makes the problem.
     pub fn finish(self) -> Result<Problem, ProblemError> {
         check_size(&self.name, self.dimension, self.points.len())?;
         let points = self.finished_points()?;
+        check_points(self.dimension, &points)?;
         let index_of: HashMap<&str, usize> = points
             .iter()
             .enumerate()
             .map(|(i, p)| (p.name.as_str(), i))
             .collect();
         let find = |place: Place, what: &str, name: &str| {
-            index_of
-                .get(name)
-                .copied()
-                .ok_or_else(|| ProblemError::UnknownPoint {
-                    objects: false,
-                    place,
-                    what: what.to_owned(),
-                    name: name.chars().take(MAX_NAME).collect(),
-                    nearest: nearest(name, &mut points.iter().map(|p| p.name.as_str())),
-                })
+            let unknown = || {
+                let known = points.iter().map(|p| p.name.as_str());
+                ProblemError::unknown(place, what, ("point", name), known)
+            };
+            index_of.get(name).copied().ok_or_else(unknown)
         };
 
         let distances = self.finished_distances(find)?;
         check_distances(&points, &distances)?;
-        let mut objects = self.finished_objects(&index_of)?;
+        let mut objects = self.finished_objects(find)?;
         self.place_bodies(&points, &mut objects)?;
         let constraints = self.finished_constraints(&points, &objects)?;
         let orientations = self.orientations.iter().enumerate();
@@ -402,7 +369,10 @@ impl ProblemBuilder {
             None => distances.len().saturating_sub(1),
             Some(names) => {
                 let [a, b] = names.as_slice() else {
-                    return Err(ProblemError::BendCount(names.len()));
+                    let given = counted(names.len(), "point");
+                    let text =
+                        format!("the bend has {given}, but must be the two points of a distance");
+                    return Err(ProblemError::at(Place::Bend, text));
                 };
                 let (i, j) = (
                     find(Place::Bend, "the bend", a)?,
@@ -411,23 +381,22 @@ impl ProblemBuilder {
                 let at = distances
                     .iter()
                     .position(|d| d.points == [i, j] || d.points == [j, i]);
-                let unknown = || ProblemError::BendNotADistance(format!("{a}-{b}"));
-                at.ok_or_else(unknown)?
+                at.ok_or_else(|| not_a_distance(&format!("{a}-{b}")))?
             }
         };
-        let choice = |number: Option<Number>, place, what: &str, otherwise: i32| match number {
-            None => Ok(Decimal::from(otherwise)),
-            Some(number) => number.map_err(|source| ProblemError::Number {
-                place,
-                what: what.to_owned(),
-                source,
-            }),
+        let choice = |number: &Option<Number>, place, what: &str| {
+            let number = number.clone().transpose();
+            number.map_err(ProblemError::number(place, what.to_owned()))
         };
-        let bend_coefficient = match self.bend_coefficient.clone() {
-            None => bend::default_coefficient(&distances),
-            c => choice(c, Place::BendCoefficient, "the bend's coefficient", 0)?,
-        };
-        let detour = choice(self.detour.clone(), Place::Detour, "the detour", 0)?;
+        let coefficient = &self.bend_coefficient;
+        let coefficient = choice(
+            coefficient,
+            Place::BendCoefficient,
+            "the bend's coefficient",
+        )?;
+        let bend_coefficient = coefficient.unwrap_or_else(|| bend::default_coefficient(&distances));
+        let detour = choice(&self.detour, Place::Detour, "the detour")?;
+        let detour = detour.unwrap_or(Decimal::from(0));
         let mut problem = Problem {
             labels: Default::default(),
             tolerances: Default::default(),
@@ -466,7 +435,8 @@ impl ProblemBuilder {
         }
         check_sketch(&problem.points, &problem.distances)?;
         if problem.is_distances_only() && problem.distances.is_empty() {
-            return Err(ProblemError::NoDistances);
+            let text = "there are no distances";
+            return Err(ProblemError::structure(Place::Distances, text));
         }
         problem.homotopy.reference = match (reference, own_frame) {
             (Some(_), true) => {
@@ -479,7 +449,10 @@ impl ProblemBuilder {
                         });
                 let name = fixing.map(|(index, _)| problem.constraint_name(index));
                 let name = name.map_or("a body with joints".to_owned(), |name| format!("`{name}`"));
-                return Err(ProblemError::ReferenceInOwnFrame(name));
+                let text = format!(
+                    "there is a reference, but {name} says where figures are or which way they lie: results are in the coordinates of the sketch, so leave the reference out"
+                );
+                return Err(ProblemError::at(Place::Reference, text));
             }
             (None, true) => Vec::new(),
             (Some(reference), false) => reference,
@@ -490,7 +463,10 @@ impl ProblemBuilder {
                 &problem.objects,
                 bend,
             )
-            .ok_or(ProblemError::CollinearSketch)?,
+            .ok_or_else(|| {
+                let text = "all points of the sketch lie on one line, so nothing can serve as reference: move at least one point off it";
+                ProblemError::at(Place::Whole, text)
+            })?,
         };
         if !problem.is_distances_only() {
             problem.check_together()?;
@@ -499,34 +475,22 @@ impl ProblemBuilder {
     }
 
     fn finished_points(&self) -> Result<Vec<Point>, ProblemError> {
-        let mut seen = HashMap::new();
-        let mut points = Vec::with_capacity(self.points.len());
-        for (index, draft) in self.points.iter().enumerate() {
-            let name = draft.name.clone();
-            check_name(Place::Point(index), &name)?;
-            if seen.insert(draft.name.as_str(), index).is_some() {
-                return Err(ProblemError::RepeatedPoint { index, name });
+        let points = self.points.iter().enumerate().map(|(index, draft)| {
+            let DraftPoint { name, coordinates } = draft;
+            let (given, wanted) = (coordinates.len(), self.dimension);
+            if given != wanted {
+                return Err(ProblemError::coordinates(index, name, given, wanted));
             }
-            if draft.coordinates.len() != self.dimension {
-                return Err(ProblemError::CoordinateCount {
-                    index,
-                    name,
-                    given: draft.coordinates.len(),
-                    wanted: self.dimension,
-                });
-            }
-            let mut sketch = [Decimal::from(0), Decimal::from(0), Decimal::from(0)];
-            for (axis, (place, coordinate)) in sketch.iter_mut().zip(&draft.coordinates).enumerate()
-            {
-                *place = coordinate.clone().map_err(|source| ProblemError::Number {
-                    place: Place::Point(index),
-                    what: format!("the point `{name}`, coordinate {}", axis + 1),
-                    source,
-                })?;
-            }
-            points.push(Point { name, sketch });
-        }
-        Ok(points)
+            let wrong = |axis: usize| {
+                let what = format!("the point `{name}`, coordinate {}", axis + 1);
+                ProblemError::number(Place::Point(index), what)
+            };
+            Ok(Point {
+                name: name.clone(),
+                sketch: three(coordinates, wrong)?,
+            })
+        });
+        points.collect()
     }
 
     fn finished_distances(
@@ -548,11 +512,7 @@ impl ProblemBuilder {
                 let what = format!("the {kind} {}-{}", shown(a), shown(b));
                 let points = [find(place, &what, a)?, find(place, &what, b)?];
                 let target = draft.target.clone();
-                let target = target.map_err(|source| ProblemError::Number {
-                    place,
-                    what,
-                    source,
-                })?;
+                let target = target.map_err(ProblemError::number(place, what))?;
                 let target = match kind {
                     "distance" => Target::Length(target),
                     _ => Target::SquaredLength(target),
@@ -566,10 +526,26 @@ impl ProblemBuilder {
 fn check_size(name: &str, dimension: usize, points: usize) -> Result<(), ProblemError> {
     check_name(Place::Name, name)?;
     if !matches!(dimension, 2 | 3) {
-        return Err(ProblemError::Dimension(dimension.to_string()));
+        return Err(ProblemError::dimension(dimension));
     }
     if points > MAX_POINTS {
-        return Err(ProblemError::TooManyPoints(points));
+        return Err(ProblemError::too_many_points(points));
+    }
+    Ok(())
+}
+
+/// Names of points can be shown and are different, and in the plane points are flat.
+fn check_points(dimension: usize, points: &[Point]) -> Result<(), ProblemError> {
+    let mut seen = HashSet::new();
+    for (index, Point { name, sketch }) in points.iter().enumerate() {
+        check_name(Place::Point(index), name)?;
+        if !seen.insert(name) {
+            let text = format!("the point `{name}` is given twice: rename or remove one");
+            return Err(ProblemError::at(Place::Point(index), text));
+        }
+        if dimension == 2 && sketch[2] != Decimal::from(0) {
+            return Err(ProblemError::coordinates(index, name, 3, 2));
+        }
     }
     Ok(())
 }
@@ -577,10 +553,11 @@ fn check_size(name: &str, dimension: usize, points: usize) -> Result<(), Problem
 /// As many points as a reference needs.
 fn check_enough_points(dimension: usize, points: usize) -> Result<(), ProblemError> {
     if points < dimension {
-        return Err(ProblemError::TooFewPoints {
-            given: points,
-            dimension,
-        });
+        let (are, given) = (either(points, "is", "are"), counted(points, "point"));
+        let text = format!(
+            "there {are} {given}, but a problem of dimension {dimension} needs at least {dimension}"
+        );
+        return Err(ProblemError::structure(Place::Whole, text));
     }
     Ok(())
 }
@@ -588,36 +565,44 @@ fn check_enough_points(dimension: usize, points: usize) -> Result<(), ProblemErr
 pub(super) fn check_name(place: Place, name: &str) -> Result<(), ProblemError> {
     let length = name.chars().count();
     if name.trim().is_empty() || length > MAX_NAME || name.chars().any(char::is_control) {
-        let name = name.chars().take(MAX_NAME).collect();
-        return Err(ProblemError::BadName { place, name });
+        let name: String = name.chars().take(MAX_NAME).collect();
+        let text = format!(
+            "the name {name:?} cannot be used: a name has 1 to {MAX_NAME} characters, no control characters among them"
+        );
+        return Err(ProblemError::at(place, text));
     }
     Ok(())
 }
 
 /// Lengths are positive, and no pair of points has two of them or is no pair.
 fn check_distances(points: &[Point], distances: &[Distance]) -> Result<(), ProblemError> {
-    let mut seen = HashMap::new();
+    let mut seen = HashSet::new();
     for (index, distance) in distances.iter().enumerate() {
         let [a, b] = distance.points;
         let name = format!("{}-{}", points[a].name, points[b].name);
+        let wrong = |text: String| Err(ProblemError::at(Place::Distance(index), text));
         if a == b {
-            return Err(ProblemError::SelfDistance { index, name });
+            return wrong(format!(
+                "the distance {name} joins the point to itself: remove it"
+            ));
         }
-        if seen.insert([a.min(b), a.max(b)], index).is_some() {
-            return Err(ProblemError::RepeatedDistance { index, name });
+        if !seen.insert([a.min(b), a.max(b)]) {
+            return wrong(format!(
+                "the distance {name} is given twice (as length, squared or reversed): remove one of them"
+            ));
         }
         let (kind, value) = match &distance.target {
             Target::Length(length) => ("distance", length),
             Target::SquaredLength(square) => ("squared distance", square),
         };
         if !value.is_positive() {
-            let value = value.to_string();
-            return Err(ProblemError::NotPositive {
-                index,
-                kind,
-                name,
-                value,
-            });
+            let hint = match value.value().is_zero() {
+                true => ": for two points in one place say `coincident`",
+                false => "",
+            };
+            return wrong(format!(
+                "the {kind} {name} is {value}, but must be greater than zero{hint}"
+            ));
         }
     }
     Ok(())
@@ -629,7 +614,8 @@ fn check_orientations(problem: &Problem) -> Result<(), ProblemError> {
     for (index, one) in problem.orientations.iter().enumerate() {
         let wrong = |fault: String| {
             let name = problem.orientation_name(index);
-            Err(ProblemError::Orientation { index, name, fault })
+            let place = Place::Orientation(index);
+            Err(ProblemError::at(place, format!("`{name}`: {fault}")))
         };
         let wanted = problem.dimension + 1;
         if one.points.len() != wanted {
@@ -667,8 +653,11 @@ fn check_sketch(points: &[Point], distances: &[Distance]) -> Result<(), ProblemE
     for (index, distance) in distances.iter().enumerate() {
         let [a, b] = distance.points;
         if coincide(&points[a], &points[b]) {
-            let name = format!("{}-{}", points[a].name, points[b].name);
-            return Err(ProblemError::Coincident { index, name });
+            let (a, b) = (&points[a].name, &points[b].name);
+            let text = format!(
+                "the points of the distance {a}-{b} coincide in the sketch: move one of them"
+            );
+            return Err(ProblemError::at(Place::Distance(index), text));
         }
     }
     Ok(())
@@ -680,27 +669,47 @@ fn check_reference(
     points: &[Point],
     reference: &[usize],
 ) -> Result<(), ProblemError> {
-    let name = |p: usize| points[p].name.clone();
     if reference.len() != dimension {
-        return Err(ProblemError::ReferenceCount {
-            given: reference.len(),
-            wanted: dimension,
-        });
+        return Err(reference_count(reference.len(), dimension));
     }
+    let wrong = |text: String| Err(ProblemError::at(Place::Reference, text));
+    let degenerate = "the reference is degenerate";
+    let choose = "in the sketch. Choose others, or leave the choice to krawl";
     for (k, &a) in reference.iter().enumerate() {
         for &b in &reference[..k] {
+            let [other, name] = [b, a].map(|p| &points[p].name);
             if a == b {
-                return Err(ProblemError::ReferenceRepeated(name(a)));
+                return wrong(format!(
+                    "the reference names the point `{name}` twice: its points must be different"
+                ));
             }
             if coincide(&points[a], &points[b]) {
-                return Err(ProblemError::ReferenceCoincident(name(b), name(a)));
+                return wrong(format!(
+                    "{degenerate}: `{other}` and `{name}` coincide {choose}"
+                ));
             }
         }
     }
     if let [a, b, c] = *reference
         && collinear(&points[a], &points[b], &points[c])
     {
-        return Err(ProblemError::ReferenceCollinear(name(a), name(b), name(c)));
+        let [a, b, c] = [a, b, c].map(|p| &points[p].name);
+        return wrong(format!(
+            "{degenerate}: `{a}`, `{b}` and `{c}` lie on one line {choose}"
+        ));
     }
     Ok(())
+}
+
+/// Not one reference point per dimension.
+fn reference_count(given: usize, wanted: usize) -> ProblemError {
+    let given = counted(given, "point");
+    let text = format!("the reference has {given}, but needs {wanted}");
+    ProblemError::at(Place::Reference, text)
+}
+
+/// The bend is not among the distances.
+fn not_a_distance(name: &str) -> ProblemError {
+    let text = format!("the bend {name} is not one of the distances: name the two points of one");
+    ProblemError::at(Place::Bend, text)
 }

@@ -1,9 +1,12 @@
 //! Objects and constraints of a problem in the making: names to be looked up, numbers to be checked.
 
 use super::builder::{Number, Numeral, ProblemBuilder, check_name, number};
-use super::error::{MAX_NAME, Place};
+use super::error::{MAX_NAME, Place, did_you_mean};
 use super::formula;
-use super::{AXES, Constraint, Decimal, Item, JointSort, Object, Point, Pose, ProblemError, Shape};
+use super::{
+    AXES, Constraint, Decimal, DecimalError, Item, JointSort, Object, Point, Pose, ProblemError,
+    Shape,
+};
 use crate::constraint::{self, EQUATIONS, KINDS};
 use crate::order::InOrder;
 use crate::statement::nearest;
@@ -122,22 +125,14 @@ impl ProblemBuilder {
     ///     .finish().unwrap();
     /// assert_eq!(problem.objects.len(), 1);
     /// ```
-    pub fn body<N, P, C>(self, name: &str, points: P) -> Self
+    pub fn body<N, P, S, C>(self, name: &str, points: P) -> Self
     where
         N: Numeral,
+        S: Into<String>,
         C: IntoIterator<Item = N>,
-        P: IntoIterator<Item = (&'static str, C)>,
+        P: IntoIterator<Item = (S, C)>,
     {
-        let points = points
-            .into_iter()
-            .map(|(p, at)| (p.to_owned(), numbers(at)));
-        let points = points.collect();
-        self.object(name, DraftShape::Body(points))
-    }
-
-    /// A rigid body with names that are made at run time.
-    pub(super) fn body_of(self, name: &str, points: Vec<(String, Vec<Decimal>)>) -> Self {
-        let points = points.into_iter().map(|(p, at)| (p, numbers(at)));
+        let points = points.into_iter().map(|(p, at)| (p.into(), numbers(at)));
         let points = points.collect();
         self.object(name, DraftShape::Body(points))
     }
@@ -212,7 +207,7 @@ impl ProblemBuilder {
     /// The objects, with their names looked up.
     pub(super) fn finished_objects(
         &self,
-        points: &HashMap<&str, usize>,
+        find: impl Fn(Place, &str, &str) -> Result<usize, ProblemError>,
     ) -> Result<Vec<Object>, ProblemError> {
         // In the order of the tables of a file.
         let mut drafts: Vec<&DraftObject> = self.objects.iter().collect();
@@ -226,31 +221,22 @@ impl ProblemBuilder {
                 let (what, only) = draft.shape.what();
                 let shown = format!("the {what} `{}`", draft.name);
                 if only.is_some_and(|dimension| dimension != self.dimension) {
-                    return Err(ProblemError::WrongSpace {
-                        index,
-                        what,
-                        name: draft.name.clone(),
-                        space: if only == Some(2) {
-                            "the plane"
-                        } else {
-                            "space"
-                        },
-                    });
+                    return Err(wrong_space(place, what, &draft.name, self.dimension));
                 }
-                let find = |name: &str| {
-                    points
-                        .get(name)
-                        .copied()
-                        .ok_or_else(|| unknown(place, &shown, name, points.keys().copied(), false))
-                };
+                let find = |name: &str| find(place, &shown, name);
                 let given = |number: &Number| {
-                    number.clone().map_err(|source| ProblemError::Number {
-                        place,
-                        what: shown.clone(),
-                        source,
-                    })
+                    let number = number.clone();
+                    number.map_err(ProblemError::number(place, &shown))
                 };
-                let coordinates = |numbers: &[Number]| self.coordinates(index, draft, numbers);
+                let coordinates = |numbers: &[Number]| {
+                    let (given, wanted) = (numbers.len(), self.dimension);
+                    if given != wanted {
+                        let fault =
+                            format!("there are {given} coordinates where {wanted} are needed");
+                        return Err(ProblemError::at(place, format!("{shown}: {fault}")));
+                    }
+                    three(numbers, |_| ProblemError::number(place, &shown))
+                };
                 let shape = match &draft.shape {
                     DraftShape::Line([a, b]) => Shape::Line([find(a)?, find(b)?]),
                     DraftShape::Plane([a, b, c]) => Shape::Plane([find(a)?, find(b)?, find(c)?]),
@@ -288,8 +274,9 @@ impl ProblemBuilder {
                     DraftShape::Joint(sort, bodies, frames) => {
                         let body = |name: &String| {
                             let found = names.iter().position(|other| other == name);
+                            let name = ("point or object", name.as_str());
                             let known = names.iter().copied();
-                            found.ok_or_else(|| unknown(place, &shown, name, known, true))
+                            found.ok_or_else(|| ProblemError::unknown(place, &shown, name, known))
                         };
                         Shape::Joint {
                             sort: *sort,
@@ -313,37 +300,6 @@ impl ProblemBuilder {
     pub(super) fn is_fixed(&self, name: &str) -> bool {
         let mut constraints = self.constraints.iter();
         constraints.any(|c| c.kind == "fixed" && c.items.iter().any(|item| item == name))
-    }
-
-    /// As many numbers as dimensions; the third is zero in the plane.
-    fn coordinates(
-        &self,
-        index: usize,
-        draft: &DraftObject,
-        numbers: &[Number],
-    ) -> Result<[Decimal; 3], ProblemError> {
-        let what = draft.shape.what().0;
-        if numbers.len() != self.dimension {
-            return Err(ProblemError::Object {
-                index,
-                what,
-                name: draft.name.clone(),
-                fault: format!(
-                    "there are {} coordinates where {} are needed",
-                    numbers.len(),
-                    self.dimension
-                ),
-            });
-        }
-        let mut out = [Decimal::from(0), Decimal::from(0), Decimal::from(0)];
-        for (out, number) in out.iter_mut().zip(numbers) {
-            *out = number.clone().map_err(|source| ProblemError::Number {
-                place: Place::Object(index),
-                what: format!("the {what} `{}`", draft.name),
-                source,
-            })?;
-        }
-        Ok(out)
     }
 
     /// The constraints, with their names looked up, in the order of the kinds.
@@ -373,9 +329,10 @@ impl ProblemBuilder {
         let mut drafts = Vec::with_capacity(self.constraints.len());
         for draft in &self.constraints {
             let order = constraint::order_of_kind(&draft.kind);
-            let order = order.ok_or_else(|| ProblemError::UnknownKind {
-                kind: draft.kind.chars().take(MAX_NAME).collect(),
-                nearest: nearest(&draft.kind, &mut KINDS.iter().map(|kind| kind.key)),
+            let order = order.ok_or_else(|| {
+                let kind: String = draft.kind.chars().take(MAX_NAME).collect();
+                let nearest = nearest(&draft.kind, &mut KINDS.iter().map(|kind| kind.key));
+                unknown_kind(&kind, nearest)
             })?;
             drafts.push((order, draft));
         }
@@ -386,14 +343,18 @@ impl ProblemBuilder {
                 let place = Place::Constraint(index);
                 let what = format!("the constraint `{}`", draft.kind);
                 let find = |name: &String| {
-                    let known = items.get(name.as_str()).copied();
-                    known.ok_or_else(|| unknown(place, &what, name, items.keys().copied(), true))
+                    let unknown = || {
+                        let name = ("point or object", name.as_str());
+                        ProblemError::unknown(place, &what, name, items.keys().copied())
+                    };
+                    items.get(name.as_str()).copied().ok_or_else(unknown)
                 };
                 let value = draft.value.clone().transpose();
+                let value = value.map_err(ProblemError::number(place, &what));
                 let formula = match draft.items.as_slice() {
                     [text] if draft.kind == EQUATIONS => {
                         let read = formula::read(text, self.dimension, &items);
-                        let fault = |fault| ProblemError::Equation { index, fault };
+                        let fault = |fault: String| ProblemError::at(place, fault);
                         Some(Box::new(read.map_err(fault)?))
                     }
                     _ => None,
@@ -406,11 +367,7 @@ impl ProblemBuilder {
                     kind: draft.kind.clone(),
                     items: named,
                     formula,
-                    value: value.map_err(|source| ProblemError::Number {
-                        place,
-                        what,
-                        source,
-                    })?,
+                    value: value?,
                 })
             })
             .collect()
@@ -421,68 +378,68 @@ fn numbers<N: Numeral>(of: impl IntoIterator<Item = N>) -> Vec<Number> {
     of.into_iter().map(number).collect()
 }
 
-/// The name that nothing has.
-fn unknown<'a>(
-    place: Place,
-    what: &str,
-    name: &str,
-    known: impl Iterator<Item = &'a str>,
-    objects: bool,
-) -> ProblemError {
-    // In an order that does not change from run to run.
-    let mut known: Vec<&str> = known.collect();
-    known.sort_unstable();
-    ProblemError::UnknownPoint {
-        objects,
-        place,
-        what: what.to_owned(),
-        name: name.chars().take(MAX_NAME).collect(),
-        nearest: nearest(name, &mut known.into_iter()),
+/// Coordinates; the third is zero in the plane.
+pub(super) fn three<F: FnOnce(DecimalError) -> ProblemError>(
+    numbers: &[Number],
+    wrong: impl Fn(usize) -> F,
+) -> Result<[Decimal; 3], ProblemError> {
+    let mut out = [0, 0, 0].map(Decimal::from);
+    for (axis, (out, number)) in out.iter_mut().zip(numbers).enumerate() {
+        *out = number.clone().map_err(wrong(axis))?;
     }
+    Ok(out)
 }
 
-/// What an object is called.
-pub(super) fn what(dimension: usize, shape: &Shape) -> &'static str {
-    match (shape, dimension) {
-        (Shape::Line(_) | Shape::FreeLine { .. }, _) => "line",
-        (Shape::Plane(_) | Shape::FreePlane { .. }, _) => "plane",
-        (Shape::Round { .. }, 2) => "circle",
-        (Shape::Round { .. }, _) => "sphere",
-        (Shape::Arc { .. }, _) => "arc",
-        (Shape::Body { .. }, _) => "body",
-        (Shape::Joint { .. }, _) => "joint",
-        (Shape::Number { .. }, _) => "unknown",
+fn unknown_kind(kind: &str, nearest: Option<String>) -> ProblemError {
+    let nearest = did_you_mean(nearest);
+    let text = format!("there is no kind of constraints `{kind}`{nearest}");
+    ProblemError::at(Place::Distances, text)
+}
+
+/// A kind of object that there is not in this dimension.
+fn wrong_space(place: Place, what: &str, name: &str, dimension: usize) -> ProblemError {
+    let space = if dimension == 2 { "space" } else { "the plane" };
+    let text = format!("the {what} `{name}`: there are {what}s in {space} only");
+    ProblemError::at(place, text)
+}
+
+impl super::Problem {
+    /// An object that cannot be put to work.
+    pub(super) fn wrong_object(&self, index: usize, fault: &str) -> ProblemError {
+        let object = &self.objects[index];
+        let what = object.kind(self.dimension);
+        let text = format!("the {what} `{}`: {fault}", object.name);
+        ProblemError::at(Place::Object(index), text)
+    }
+
+    /// A constraint that cannot be put to work.
+    pub(super) fn wrong_constraint(&self, index: usize, name: &str, fault: &str) -> ProblemError {
+        let kind = constraint::kind(&self.constraints[index].kind);
+        let takes = kind.map_or("", |kind| kind.takes);
+        let text = format!("`{name}`: {fault} (it takes {takes})");
+        ProblemError::at(Place::Constraint(index), text)
     }
 }
 
 /// Names are different, points of objects are, and no constraint is there twice; indices are in range.
 pub(super) fn check_names(problem: &super::Problem) -> Result<(), ProblemError> {
     let mut names: HashSet<&str> = AXES.into_iter().collect();
+    let taken = |place: Place, what: &str, name: &str| {
+        let text = format!("the name `{name}` is taken: rename the {what}");
+        Err(ProblemError::at(place, text))
+    };
     for (index, point) in problem.points.iter().enumerate() {
         if !names.insert(&point.name) && !problem.is_distances_only() {
-            return Err(ProblemError::RepeatedName {
-                place: Place::Point(index),
-                what: "point",
-                name: point.name.clone(),
-            });
+            return taken(Place::Point(index), "point", &point.name);
         }
     }
     for (index, object) in problem.objects.iter().enumerate() {
-        let what = what(problem.dimension, &object.shape);
-        check_name(Place::Object(index), &object.name)?;
+        let (place, what) = (Place::Object(index), object.kind(problem.dimension));
+        check_name(place, &object.name)?;
         if !names.insert(&object.name) {
-            return Err(ProblemError::RepeatedName {
-                place: Place::Object(index),
-                what,
-                name: object.name.clone(),
-            });
+            return taken(place, what, &object.name);
         }
-        let fault = |fault: &str| ProblemError::Object {
-            index,
-            what,
-            name: object.name.clone(),
-            fault: fault.to_owned(),
-        };
+        let fault = |fault: &str| problem.wrong_object(index, fault);
         let points = object.points();
         if let Shape::Body { local, place, .. } = &object.shape {
             if points.len() != local.len() {
@@ -540,25 +497,12 @@ pub(super) fn check_names(problem: &super::Problem) -> Result<(), ProblemError> 
             _ => true,
         };
         if !there {
-            return Err(ProblemError::WrongSpace {
-                index,
-                what,
-                name: object.name.clone(),
-                space: if problem.dimension == 2 {
-                    "space"
-                } else {
-                    "the plane"
-                },
-            });
+            let error = wrong_space(place, what, &object.name, problem.dimension);
+            return Err(error);
         }
     }
     if let Err((index, fault)) = constraint::check_joints(problem) {
-        return Err(ProblemError::Object {
-            index,
-            what: what(problem.dimension, &problem.objects[index].shape),
-            name: problem.objects[index].name.clone(),
-            fault,
-        });
+        return Err(problem.wrong_object(index, &fault));
     }
     let mut seen = HashSet::new();
     for (index, constraint) in problem.constraints.iter().enumerate() {
@@ -567,25 +511,19 @@ pub(super) fn check_names(problem: &super::Problem) -> Result<(), ProblemError> 
             Item::Object(o) => o < problem.objects.len(),
             Item::Axis(k) => k < AXES.len(),
         };
-        let Some(kind) = constraint::kind(&constraint.kind) else {
-            return Err(ProblemError::UnknownKind {
-                kind: constraint.kind.clone(),
-                nearest: None,
-            });
-        };
+        if constraint::kind(&constraint.kind).is_none() {
+            return Err(unknown_kind(&constraint.kind, None));
+        }
         let is_whole = constraint.formula.as_ref().is_none_or(|f| f.is_of(problem));
         if !constraint.items.iter().all(known) || !is_whole {
-            return Err(ProblemError::Constraint {
-                index,
-                name: constraint.kind.clone(),
-                fault: "it names something that there is not".to_owned(),
-                takes: kind.takes,
-            });
+            let fault = "it names something that there is not";
+            return Err(problem.wrong_constraint(index, &constraint.kind, fault));
         }
         let text = constraint.formula.as_ref().map(|formula| &formula.text);
         if !seen.insert((constraint.kind.as_str(), &constraint.items, text)) {
             let name = problem.constraint_name(index);
-            return Err(ProblemError::RepeatedConstraint { index, name });
+            let text = format!("`{name}` is given twice: remove one of them");
+            return Err(ProblemError::at(Place::Constraint(index), text));
         }
     }
     Ok(())

@@ -1,8 +1,10 @@
 //! Expressions as people write them, `width/2 + 3`: read once, for numbers that are computed from parameters, exactly, and for
 //! the polynomials of [equations](super::formula).
 
+use super::error::did_you_mean;
 use super::{Decimal, DecimalError};
 use crate::rational::Rational;
+use crate::statement::nearest;
 use num_bigint::BigInt;
 use num_traits::Signed;
 use std::borrow::Cow;
@@ -155,8 +157,7 @@ impl Algebra for Numbers<'_> {
         let found = self.0.iter().find(|(other, _)| other == name);
         let (_, value) = found.ok_or_else(|| {
             let mut names = self.0.iter().map(|(name, _)| name.as_str());
-            let meant = crate::statement::nearest(name, &mut names);
-            let meant = meant.map_or(String::new(), |near| format!("; did you mean `{near}`?"));
+            let meant = did_you_mean(nearest(name, &mut names));
             format!(": `{name}` is no parameter that stands before{meant}")
         })?;
         Ok((value.value().clone(), 0))

@@ -1,5 +1,6 @@
 //! Equations of one's own, read: `x^2 + y^2 = a`, over unknowns, coordinates `A.x` and lengths `|A-B|`.
 
+use super::error::did_you_mean;
 use super::expression::{Algebra, Reader};
 use super::{Decimal, Item};
 use crate::rational::Rational;
@@ -84,11 +85,7 @@ impl Polynomials<'_> {
 
     fn unknown(&self, name: &str, what: &str, is_meant: impl Fn(&Item) -> bool) -> String {
         let names = self.items.iter().filter(|(_, item)| is_meant(item));
-        // In an order that does not change from run to run.
-        let mut names: Vec<&str> = names.map(|(name, _)| *name).collect();
-        names.sort_unstable();
-        let meant = nearest(name, &mut names.into_iter());
-        let meant = meant.map_or(String::new(), |near| format!("; did you mean `{near}`?"));
+        let meant = did_you_mean(nearest(name, &mut names.map(|(name, _)| *name)));
         format!(": there is no {what} `{name}`{meant}")
     }
 

@@ -1,16 +1,17 @@
 //! Bodies with joints: their tables in problem files, robots as tables of Denavit and Hartenberg, and where bodies are in the sketch.
 
 use super::builder::{ProblemBuilder, number};
+use super::cursor::At;
 use super::draft::DraftShape;
-use super::file::{FileError, Line, Reader};
+use super::error::Place;
+use super::file::{FileError, Reader};
 use super::{Decimal, DecimalError, JointSort, Numeral, Object, Point, Pose, ProblemError, Shape};
 use crate::constraint::{base_of, vector};
 use crate::interval::vector::{cross, dot, length, minus, out_of};
 use crate::map::Map;
+use crate::order::InOrder as _;
 use crate::places::{Each as _, array};
-use crate::statement::nearest;
 use std::collections::HashMap;
-use toml_edit::{Item, Key, TableLike, Value};
 
 /// How a joint is written.
 pub(super) const WANTED: &str = "{ revolute = [\"body\", \"body\"], at = [[0, 0, 0], [0, 0, 0]], z = [[0, 0, 1], [0, 0, 1]], x = [[1, 0, 0], [1, 0, 0]] }";
@@ -48,9 +49,8 @@ impl Pose {
     }
 
     fn floats(&self) -> Motion {
-        let of = |v: &[Decimal; 3]| v.each_ref().each(|x| x.to_f64());
-        let (z, x) = (of(&self.z), of(&self.x));
-        (of(&self.at), frame_of(z, x))
+        let [at, z, x] = [&self.at, &self.z, &self.x].map(floats);
+        (at, frame_of(z, x))
     }
 
     fn of_floats((at, axes): &Motion) -> Self {
@@ -62,6 +62,10 @@ impl Pose {
             x: rounded(&axes[0]),
         }
     }
+}
+
+fn floats(of: &[Decimal; 3]) -> [f64; 3] {
+    of.each_ref().each(|x| x.to_f64())
 }
 
 /// The axes of a frame with this z axis, and the x axis on that side of it; the identity's where the two are parallel.
@@ -148,7 +152,7 @@ impl ProblemBuilder {
         objects: &mut [Object],
     ) -> Result<(), ProblemError> {
         let mut known: HashMap<usize, Motion> = HashMap::new();
-        for (name, pose) in self.drawn.places.iter() {
+        for (index, (name, pose)) in self.drawn.places.iter().enumerate() {
             let is_it = |object: &Object| object.name == *name;
             match objects.iter().position(is_it) {
                 Some(body) if matches!(objects[body].shape, Shape::Body { .. }) => {
@@ -156,11 +160,10 @@ impl ProblemBuilder {
                 }
                 _ => {
                     let is_body = |o: &&Object| matches!(o.shape, Shape::Body { .. });
-                    let mut bodies = objects.iter().filter(is_body).map(|o| o.name.as_str());
-                    return Err(ProblemError::UnknownBody {
-                        name: name.clone(),
-                        nearest: nearest(name, &mut bodies),
-                    });
+                    let bodies = objects.iter().filter(is_body).map(|o| o.name.as_str());
+                    let what = "the table of places";
+                    let place = Place::Pose(index);
+                    return Err(ProblemError::unknown(place, what, ("body", name), bodies));
                 }
             }
         }
@@ -214,11 +217,8 @@ impl ProblemBuilder {
                 local,
                 ..
             } if !members.is_empty() => {
-                let of = |v: &[Decimal; 3]| v.each_ref().each(|x| x.to_f64());
-                (
-                    minus(of(&points[members[0]].sketch), of(&local[0])),
-                    identity.1,
-                )
+                let at = minus(points[members[0]].place(), floats(&local[0]));
+                (at, identity.1)
             }
             _ => identity,
         };
@@ -298,43 +298,30 @@ fn fitted(
             (at, frame_of(cross(x, y), x))
         }
     };
-    let of = |v: &[Decimal; 3]| v.each_ref().each(|x| x.to_f64());
-    let there: Vec<_> = base
-        .iter()
-        .map(|&k| of(&points[members[k]].sketch))
-        .collect();
-    let here: Vec<_> = base.iter().map(|&k| of(&local[k])).collect();
+    let there: Vec<_> = base.iter().map(|&k| points[members[k]].place()).collect();
+    let here: Vec<_> = base.iter().map(|&k| floats(&local[k])).collect();
     let [there, here] = [there, here].map(|places| frame(places[0], &places[1..]));
     Some(then(&there, &back(&here)))
 }
 
 impl Reader<'_> {
-    /// The table `places`, and what joints measure in the sketch.
-    pub(super) fn places_of_bodies(
-        &self,
-        root: &dyn TableLike,
-        mut builder: ProblemBuilder,
-        lines: &mut HashMap<String, Line>,
-    ) -> Result<ProblemBuilder, FileError> {
-        let dimension = builder.dimension;
-        let Some((line, item)) = self.get(root, "places") else {
-            return Ok(builder);
+    /// The table `places`.
+    pub(super) fn places_of_bodies(&mut self) -> Result<(), FileError> {
+        let Some(table) = self.root.get("places") else {
+            return Ok(());
         };
-        let table = self.table(line, "places", item)?;
-        for (name, item) in table.iter() {
-            let line = self.line(table.key(name).and_then(Key::span)).or(line);
-            let key = format!("places.{name}");
-            let wanted = "{ at = [0, 0, 0], z = [0, 0, 1], x = [1, 0, 0] }";
-            let wrong = || self.wrong_kind(line, &key, wanted, item);
-            let parts = item.as_table_like().ok_or_else(wrong)?;
-            self.known_keys(parts, &format!("{key}."), &["at", "z", "x"])?;
-            let of = |part: &str| -> Result<Option<[Decimal; 3]>, FileError> {
-                let Some(item) = parts.get(part) else {
-                    return Ok(None);
-                };
-                let value = item.as_value().ok_or_else(wrong)?;
-                let three = self.three(line, &format!("{key}.{part}"), dimension, value)?;
-                three.map(Some).ok_or_else(wrong)
+        let wanted = "{ at = [0, 0, 0], z = [0, 0, 1], x = [1, 0, 0] }";
+        let mut lines = Vec::new();
+        for (name, at) in table.entries()? {
+            let wrong = || at.wrong(wanted);
+            if !at.item.is_table_like() {
+                return Err(wrong());
+            }
+            at.known_keys(&["at", "z", "x"])?;
+            let dimension = self.builder.dimension;
+            let of = |part: &str| {
+                let part = at.get(part);
+                part.map(|part| three(&part, dimension, wrong)).transpose()
             };
             let identity = Pose::identity();
             let mut pose = Pose {
@@ -346,154 +333,134 @@ impl Reader<'_> {
                 Some(x) => pose.x = x,
                 None => pose.turn_x_aside(),
             }
-            builder = builder.place(name, pose);
-            lines.insert(name.to_owned(), line);
+            self.add(&at, |builder| Ok(builder.place(name, pose)))?;
+            lines.push((name, at.line));
         }
-        Ok(builder)
-    }
-
-    /// A list of numbers: as many as there are dimensions, the rest zero; or three.
-    fn three(
-        &self,
-        line: Line,
-        key: &str,
-        dimension: usize,
-        value: &Value,
-    ) -> Result<Option<[Decimal; 3]>, FileError> {
-        let Some(list) = value.as_array() else {
-            return Ok(None);
-        };
-        if list.len() != dimension && list.len() != 3 {
-            return Ok(None);
-        }
-        let mut three = [0, 0, 0].map(Decimal::from);
-        for (three, value) in three.iter_mut().zip(list.iter()) {
-            *three = self.number(line, key, value)?;
-        }
-        Ok(Some(three))
-    }
-
-    /// A joint of the table `joints`.
-    pub(super) fn joint(
-        &self,
-        line: Line,
-        key: &str,
-        name: &str,
-        item: &Item,
-        builder: ProblemBuilder,
-    ) -> Result<ProblemBuilder, FileError> {
-        let wrong = || self.wrong_kind(line, key, WANTED, item);
-        let parts = item.as_table_like().ok_or_else(wrong)?;
-        let sorts = JointSort::ALL.map(JointSort::key);
-        if !sorts.iter().any(|sort| parts.contains_key(sort)) {
-            let wanted = format!("{WANTED}, with one of {} in front", sorts.join(", "));
-            return Err(self.wrong_kind(line, key, &wanted, item));
-        }
-        let known = [&sorts[..], &["at", "z", "x", "sketch"]].concat();
-        self.known_keys(parts, &format!("{key}."), &known)?;
-        let given: Vec<JointSort> = JointSort::ALL
-            .into_iter()
-            .filter(|sort| parts.contains_key(sort.key()))
-            .collect();
-        let [sort] = given[..] else {
-            return Err(wrong());
-        };
-        let bodies = parts.get(sort.key()).and_then(Item::as_array);
-        let bodies: Vec<&str> = bodies
-            .into_iter()
-            .flatten()
-            .filter_map(Value::as_str)
-            .collect();
-        let [first, second] = bodies[..] else {
-            return Err(wrong());
-        };
-        let identity = Pose::identity();
-        let mut frames = [identity.clone(), identity];
-        for (part, of) in [
-            ("at", (|p| &mut p.at) as fn(&mut Pose) -> &mut [Decimal; 3]),
-            ("z", |p| &mut p.z),
-            ("x", |p| &mut p.x),
-        ] {
-            let Some(item) = parts.get(part) else {
-                continue;
-            };
-            let list = item.as_array().ok_or_else(wrong)?;
-            if list.len() != 2 {
-                return Err(wrong());
-            }
-            for (frame, value) in frames.iter_mut().zip(list.iter()) {
-                let key = format!("{key}.{part}");
-                let three = self.three(line, &key, builder.dimension, value)?;
-                *of(frame) = three.ok_or_else(wrong)?;
-            }
-        }
-        // Where only the axis is given, any direction across it will do.
-        if !parts.contains_key("x") {
-            frames.iter_mut().for_each(Pose::turn_x_aside);
-        }
-        let mut builder = builder.joint(name, sort, [first, second], frames);
-        if let Some(item) = parts.get("sketch") {
-            let value = item.as_value().ok_or_else(wrong)?;
-            let value = self.number(line, &format!("{key}.sketch"), value)?;
-            builder = builder.joint_in_sketch(name, value);
-        }
-        Ok(builder)
-    }
-
-    /// The robots of a file: name, line, and of each joint its row of Denavit and Hartenberg.
-    pub(super) fn robots(&self, root: &dyn TableLike) -> Result<Vec<Robot>, FileError> {
-        let Some((line, item)) = self.get(root, "robots") else {
-            return Ok(Vec::new());
-        };
-        let wanted = "a row for each joint, [{ d = 0.4, alpha = 90 }, { a = 0.3, theta = 20 }, { prismatic = true, d = 0.1 }]";
-        let table = self.table(line, "robots", item)?;
-        let robots = table.iter().map(|(name, item)| {
-            let line = self.line(table.key(name).and_then(Key::span)).or(line);
-            let key = format!("robots.{name}");
-            let wrong = || self.wrong_kind(line, &key, wanted, item);
-            let list = item.as_array().ok_or_else(wrong)?;
-            let rows = list.iter().map(|value| {
-                let row = value.as_inline_table().ok_or_else(wrong)?;
-                self.known_keys(
-                    row,
-                    &format!("{key}."),
-                    &["theta", "d", "a", "alpha", "prismatic"],
-                )?;
-                let of = |part: &str| match row.get(part) {
-                    None => Ok(Decimal::from(0)),
-                    Some(value) => self.number(line, &format!("{key}.{part}"), value),
-                };
-                let is_prismatic = match row.get("prismatic") {
-                    None => false,
-                    Some(value) => value.as_bool().ok_or_else(wrong)?,
-                };
-                Ok(Row {
-                    theta: of("theta")?,
-                    d: of("d")?,
-                    a: of("a")?,
-                    alpha: of("alpha")?,
-                    is_prismatic,
-                })
-            });
-            let rows = rows.collect::<Result<Vec<_>, FileError>>()?;
-            if rows.is_empty() {
-                return Err(wrong());
-            }
-            Ok(Robot {
-                name: name.to_owned(),
-                line,
-                rows,
-            })
-        });
-        robots.collect()
+        lines.order_by_key(|&(name, _)| name);
+        let lines = lines.into_iter().enumerate();
+        let places = lines.map(|(index, (_, line))| (Place::Pose(index), (String::new(), line)));
+        self.places.extend(places);
+        Ok(())
     }
 }
 
+/// A list of numbers: as many as there are dimensions, the rest zero; or three.
+fn three(
+    at: &At,
+    dimension: usize,
+    wrong: impl Fn() -> FileError,
+) -> Result<[Decimal; 3], FileError> {
+    let list = at.list("").map_err(|_| wrong())?;
+    if list.len() != dimension && list.len() != 3 {
+        return Err(wrong());
+    }
+    let mut three = [0, 0, 0].map(Decimal::from);
+    for (three, value) in three.iter_mut().zip(&list) {
+        *three = value.number()?;
+    }
+    Ok(three)
+}
+
+/// A joint of the table `joints`.
+pub(super) fn joint(
+    name: &str,
+    at: &At,
+    builder: ProblemBuilder,
+) -> Result<ProblemBuilder, FileError> {
+    let wrong = || at.wrong(WANTED);
+    if !at.item.is_table_like() {
+        return Err(wrong());
+    }
+    let sorts = JointSort::ALL.map(JointSort::key);
+    let given = JointSort::ALL
+        .into_iter()
+        .filter_map(|sort| Some((sort, at.get(sort.key())?)));
+    let given: Vec<(JointSort, At)> = given.collect();
+    if given.is_empty() {
+        return Err(at.wrong(&format!(
+            "{WANTED}, with one of {} in front",
+            sorts.join(", ")
+        )));
+    }
+    at.known_keys(&[&sorts[..], &["at", "z", "x", "sketch"]].concat())?;
+    let [(sort, bodies)] = &given[..] else {
+        return Err(wrong());
+    };
+    let [first, second] = bodies.texts("").map_err(|_| wrong())?[..] else {
+        return Err(wrong());
+    };
+    let identity = Pose::identity();
+    let mut frames = [identity.clone(), identity];
+    for (part, of) in [
+        ("at", (|p| &mut p.at) as fn(&mut Pose) -> &mut [Decimal; 3]),
+        ("z", |p| &mut p.z),
+        ("x", |p| &mut p.x),
+    ] {
+        let Some(part) = at.get(part) else {
+            continue;
+        };
+        let list = part.list("").map_err(|_| wrong())?;
+        if list.len() != 2 {
+            return Err(wrong());
+        }
+        for (frame, value) in frames.iter_mut().zip(&list) {
+            *of(frame) = three(value, builder.dimension, wrong)?;
+        }
+    }
+    // Where only the axis is given, any direction across it will do.
+    if at.get("x").is_none() {
+        frames.iter_mut().for_each(Pose::turn_x_aside);
+    }
+    let builder = builder.joint(name, *sort, [first, second], frames);
+    Ok(match at.get("sketch") {
+        Some(value) => builder.joint_in_sketch(name, value.number()?),
+        None => builder,
+    })
+}
+
+/// The robots of a file: of each joint its row of Denavit and Hartenberg.
+pub(super) fn robots<'a>(root: &At<'a>) -> Result<Vec<Robot<'a>>, FileError> {
+    let Some(table) = root.get("robots") else {
+        return Ok(Vec::new());
+    };
+    let wanted = "a row for each joint, [{ d = 0.4, alpha = 90 }, { a = 0.3, theta = 20 }, { prismatic = true, d = 0.1 }]";
+    let robots = table.entries()?.into_iter().map(|(name, at)| {
+        let wrong = || at.wrong(wanted);
+        let rows = at.list(wanted)?.into_iter().map(|row| {
+            if !row.item.is_table_like() {
+                return Err(wrong());
+            }
+            row.known_keys(&["theta", "d", "a", "alpha", "prismatic"])?;
+            let of = |part: &str| match row.get(part) {
+                None => Ok(Decimal::from(0)),
+                Some(value) => value.number(),
+            };
+            let is_prismatic = match row.get("prismatic") {
+                None => false,
+                Some(value) => value.item.as_bool().ok_or_else(wrong)?,
+            };
+            Ok(Row {
+                theta: of("theta")?,
+                d: of("d")?,
+                a: of("a")?,
+                alpha: of("alpha")?,
+                is_prismatic,
+            })
+        });
+        let rows = rows.collect::<Result<Vec<_>, FileError>>()?;
+        match rows.is_empty() {
+            true => Err(wrong()),
+            false => Ok(Robot { name, at, rows }),
+        }
+    });
+    robots.collect()
+}
+
 /// A robot whose joints are given as a table.
-pub(super) struct Robot {
-    name: String,
+pub(super) struct Robot<'a> {
+    name: &'a str,
     /// Where it is in the file.
-    pub line: Line,
+    pub at: At<'a>,
     rows: Vec<Row>,
 }
 
@@ -507,16 +474,11 @@ struct Row {
     is_prismatic: bool,
 }
 
-impl Robot {
-    /// How many joints it has.
-    pub fn len(&self) -> usize {
-        self.rows.len()
-    }
-
+impl Robot<'_> {
     /// Adds its bodies: `name_0`, which is the first, to `name_n`.
     pub fn add_bodies(&self, builder: ProblemBuilder) -> ProblemBuilder {
         (0..=self.rows.len()).fold(builder, |builder, k| {
-            builder.body_of(&format!("{}_{k}", self.name), Vec::new())
+            builder.body(&format!("{}_{k}", self.name), [("", [0]); 0])
         })
     }
 

@@ -7,6 +7,7 @@
 mod bend;
 mod builder;
 mod check;
+mod cursor;
 mod draft;
 mod error;
 #[doc(hidden)]
@@ -33,5 +34,7 @@ pub use bend::default_coefficient as default_bend;
 pub use builder::{Numeral, ProblemBuilder};
 pub use check::{Rigidity, rigidity, rigidity_row};
 pub use error::{MAX_NAME, MAX_POINTS, Place, ProblemError};
-pub use file::{FileError, FileFault, MAX_FILE_SIZE};
+pub use file::{FileError, MAX_FILE_SIZE};
 pub use published::Published;
+#[doc(hidden)]
+pub use write::number as toml_number;

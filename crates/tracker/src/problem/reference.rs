@@ -5,6 +5,7 @@ use super::{Distance, Object, Point, Problem, Shape};
 use crate::constraint::fix_frame;
 use crate::interval::vector::{cross, minus};
 use crate::places::Each as _;
+use crate::statement::neighbours;
 
 /// A body whose roundest triangle is thinner than this tells its plane badly: other points are taken then.
 const THIN: f64 = 0.1;
@@ -49,17 +50,9 @@ pub(super) fn choose(
     objects: &[Object],
     bend: usize,
 ) -> Option<Vec<usize>> {
-    let place: Vec<[f64; 3]> = points
-        .iter()
-        .map(|p| p.sketch.each_ref().each(|x| x.to_f64()))
-        .collect();
+    let place: Vec<[f64; 3]> = points.iter().map(Point::place).collect();
     let n = points.len();
-    let mut joined = vec![Vec::new(); n];
-    for (index, distance) in distances.iter().enumerate() {
-        let [a, b] = distance.points;
-        joined[a].push((b, index));
-        joined[b].push((a, index));
-    }
+    let joined = neighbours(n, distances.iter().map(|d| d.points));
     let edge = |a: usize, b: usize| joined[a].iter().find(|&&(c, _)| c == b).map(|&(_, e)| e);
 
     // The better candidate: first by preference, then by shape; the first one on a tie.

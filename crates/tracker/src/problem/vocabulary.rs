@@ -2,11 +2,10 @@
 //! they take, is not said here: [`crate::constraint::KINDS`] does.
 
 use super::builder::ProblemBuilder;
-use super::file::{FileError, Line, Places, Reader};
-use super::{AXES, Decimal};
+use super::cursor::{At, TEXT};
+use super::file::{FileError, Reader};
+use super::{AXES, Decimal, expression, joint};
 use crate::constraint::{KINDS, Kind, Measure};
-use std::collections::HashSet;
-use toml_edit::{Item, Key, TableLike, Value};
 
 /// The tables of objects.
 pub(super) const TABLES: [&str; 8] = [
@@ -26,207 +25,108 @@ fn wanted(table: &str) -> &'static str {
     }
 }
 
-impl Reader<'_> {
-    /// All tables of objects; the names of the objects.
-    pub(super) fn objects(
-        &self,
-        root: &dyn TableLike,
-        mut builder: ProblemBuilder,
-        places: &mut Places,
-    ) -> Result<(ProblemBuilder, HashSet<String>), FileError> {
-        let mut names = HashSet::new();
-        let robots = self.robots(root)?;
-        builder = self.places_of_bodies(root, builder, &mut places.poses)?;
+impl<'a> Reader<'a> {
+    /// All tables of objects.
+    pub(super) fn objects(&mut self) -> Result<(), FileError> {
+        let robots = joint::robots(&self.root)?;
+        self.places_of_bodies()?;
         for table in TABLES {
-            builder = robots.iter().fold(builder, |builder, robot| match table {
-                "bodies" => {
-                    places
-                        .objects
-                        .extend(vec![(table, robot.line); robot.len() + 1]);
-                    robot.add_bodies(builder)
-                }
-                "joints" => {
-                    places
-                        .objects
-                        .extend(vec![(table, robot.line); robot.len()]);
-                    robot.add_joints(builder)
-                }
-                _ => builder,
-            });
-            let Some((line, item)) = self.get(root, table) else {
+            for robot in &robots {
+                self.add(&robot.at.named(table), |builder| {
+                    Ok(match table {
+                        "bodies" => robot.add_bodies(builder),
+                        "joints" => robot.add_joints(builder),
+                        _ => builder,
+                    })
+                })?;
+            }
+            let Some(objects) = self.root.get(table) else {
                 continue;
             };
-            let objects = self.table(line, table, item)?;
-            for (name, item) in objects.iter() {
-                let line = self.line(objects.key(name).and_then(Key::span)).or(line);
-                let key = format!("{table}.{}", name.chars().take(60).collect::<String>());
-                self.is_in_place(line, table, name, item)?;
-                builder = self.object(table, line, &key, name, item, builder)?;
-                places.objects.push((table, line));
-                names.insert(name.to_owned());
+            for (name, at) in objects.entries()? {
+                at.is_in_place(table)?;
+                self.add(&at.named(table), |builder| {
+                    object(table, name, &at, builder)
+                })?;
+                self.objects.insert(name);
             }
         }
-        Ok((builder, names))
-    }
-
-    fn object(
-        &self,
-        table: &str,
-        line: Line,
-        key: &str,
-        name: &str,
-        item: &Item,
-        builder: ProblemBuilder,
-    ) -> Result<ProblemBuilder, FileError> {
-        let wrong = || self.wrong_kind(line, key, wanted(table), item);
-        if table == "unknowns" {
-            let value = item.as_value().ok_or_else(wrong)?;
-            return Ok(builder.unknown(name, self.number(line, key, value)?));
-        }
-        if table == "joints" {
-            return self.joint(line, key, name, item, builder);
-        }
-        if item.is_array() {
-            let points = self.point_names(line, key, item)?;
-            return match (table, points.as_slice()) {
-                ("lines", [a, b]) => Ok(builder.line(name, a, b)),
-                ("planes", [a, b, c]) => Ok(builder.plane(name, [a, b, c])),
-                _ => Err(wrong()),
-            };
-        }
-        let parts = item.as_table_like().ok_or_else(wrong)?;
-        let numbers = |part: &str| -> Result<Vec<Decimal>, FileError> {
-            let item = parts.get(part).ok_or_else(wrong)?;
-            let numbers = item.as_array().ok_or_else(wrong)?;
-            let key = format!("{key}.{part}");
-            numbers.iter().map(|n| self.number(line, &key, n)).collect()
-        };
-        let point = |part: &str| -> Result<String, FileError> {
-            let item = parts.get(part).ok_or_else(wrong)?;
-            self.string(line, &format!("{key}.{part}"), item)
-        };
-        let known = |known: &[&str]| self.known_keys(parts, &format!("{key}."), known);
-        Ok(match table {
-            "lines" => {
-                known(&["point", "direction"])?;
-                builder.free_line(name, numbers("point")?, numbers("direction")?)
-            }
-            "planes" => {
-                known(&["point", "normal"])?;
-                builder.free_plane(name, numbers("point")?, numbers("normal")?)
-            }
-            "circles" | "spheres" => {
-                known(&["center", "radius"])?;
-                let item = parts.get("radius").ok_or_else(wrong)?;
-                let value = item.as_value().ok_or_else(wrong)?;
-                let radius = self.number(line, &format!("{key}.radius"), value)?;
-                if table == "circles" {
-                    builder.circle(name, &point("center")?, radius)
-                } else {
-                    builder.sphere(name, &point("center")?, radius)
-                }
-            }
-            "arcs" => {
-                known(&["center", "start", "end"])?;
-                builder.arc(name, &point("center")?, &point("start")?, &point("end")?)
-            }
-            _ => {
-                let mut members = Vec::new();
-                for (point, _) in parts.iter() {
-                    members.push((point.to_owned(), numbers(point)?));
-                }
-                builder.body_of(name, members)
-            }
-        })
+        Ok(())
     }
 
     /// All constraints of one kind. Distances between two points are kept apart.
-    pub(super) fn kind(
-        &self,
-        kind: &Kind,
-        table: &dyn TableLike,
-        objects: &HashSet<String>,
-        mut builder: ProblemBuilder,
-        places: &mut Places,
-    ) -> Result<ProblemBuilder, FileError> {
-        let key = format!("constraints.{}", kind.key);
-        let Some((line, item)) = self.get(table, kind.key) else {
-            return Ok(builder);
-        };
-        let entry = match kind.measure {
-            Measure::Nothing => "[\"name\", ...]",
-            _ => "[\"name\", ..., number]",
+    pub(super) fn kind(&mut self, kind: &Kind, list: &At) -> Result<(), FileError> {
+        let wants_number = kind.measure != Measure::Nothing;
+        let entry = match wants_number {
+            false => "[\"name\", ...]",
+            true => "[\"name\", ..., number]",
         };
         let wanted = format!("{entry} with the names of {}", kind.takes);
-        let Some(array) = item.as_array() else {
-            let wanted = format!("a list in brackets, each entry {wanted}");
-            return Err(self.wrong_kind(line, &key, &wanted, item));
-        };
-        for value in array {
-            let line = self.line(value.span()).or(line);
-            if let Some(name) = value.as_str() {
-                builder = builder.constraint(kind.key, [name]);
-                places.constraints_of_kinds.push((kind.key, line));
+        for at in list.list(&format!("a list in brackets, each entry {wanted}"))? {
+            if let Some(name) = at.item.as_str() {
+                self.add(&at, |builder| Ok(builder.constraint(kind.key, [name])))?;
                 continue;
             }
-            let Some(parts) = value.as_array() else {
-                return Err(self.wrong_value(line, &key, &wanted, value));
+            let mut parts = at.list(&wanted)?;
+            let is_alone = parts.len() == 1;
+            // A number in quotes is no name: it is refused as what it is. And where a file has parameters what stands last is
+            // no name, but an expression.
+            let is_quoted = |text: &str| {
+                !self.parameters.is_empty()
+                    || text.parse::<Decimal>().is_ok() && !self.objects.contains(text)
             };
-            let mut parts: Vec<&Value> = parts.iter().collect();
-            let is_number = |value: &&Value| value.is_integer() || value.is_float();
-            let wants_number = kind.measure != Measure::Nothing;
-            // A number in quotes is no name: it is refused as what it is.
-            let quoted = |value: &&Value| {
-                value
-                    .as_str()
-                    .is_some_and(|text| text.parse::<Decimal>().is_ok() && !objects.contains(text))
-            };
-            // Where a file has parameters what stands last is no name, but an expression.
-            let computed = |value: &&Value| !places.parameters.is_empty() && value.is_str();
-            let number = match parts.len() {
-                0 | 1 => parts.pop_if(|last| wants_number && is_number(last)),
-                _ => parts.pop_if(|last| {
-                    wants_number && (is_number(last) || quoted(last) || computed(last))
-                }),
-            };
-            let mut names = Vec::with_capacity(parts.len());
-            for part in parts {
-                let name = part.as_str().ok_or_else(|| {
-                    let wanted = format!("a name in quotes, as in {entry}");
-                    self.wrong_value(line, &key, &wanted, part)
-                })?;
-                names.push(name);
-            }
+            let number = parts.pop_if(|last| {
+                let is_quoted = !is_alone && last.item.as_str().is_some_and(is_quoted);
+                wants_number && (last.is_number() || is_quoted)
+            });
+            let name = format!("a name in quotes, as in {entry}");
+            let names = parts.iter().map(|part| part.text(&name));
+            let names = names.collect::<Result<Vec<&str>, FileError>>()?;
             if number.is_none() && wants_number {
-                let found = format!("a list of {}", names.len());
-                return Err(self.wrong(line, &key, &wanted, found));
+                return Err(at.is_wrong(&wanted, &format!("a list of {}", names.len())));
             }
-            let between_points = kind.key == "distances"
-                && names.len() == 2
-                && !names
-                    .iter()
-                    .any(|&n| objects.contains(n) || AXES.contains(&n));
-            let shown: Vec<String> = names.iter().map(|n| n.chars().take(40).collect()).collect();
-            let here = format!("{key}: {}", shown.join("-"));
-            let number = number
-                .map(|n| self.number_of(line, &here, n, places))
-                .transpose()?;
-            builder = match (number, between_points) {
-                (Some(number), true) => {
-                    places.distances.push(("constraints.distances", line));
-                    builder.distance(names[0], names[1], number)
-                }
-                (Some(number), false) => {
-                    places.constraints_of_kinds.push((kind.key, line));
-                    builder.dimension(kind.key, names, number)
-                }
-                (None, _) => {
-                    places.constraints_of_kinds.push((kind.key, line));
-                    builder.constraint(kind.key, names)
-                }
-            };
+            let is_object = |name: &&str| self.objects.contains(name) || AXES.contains(name);
+            let between_points =
+                kind.key == "distances" && names.len() == 2 && !names.iter().any(is_object);
+            let number = number.map(|number| self.number_of(&number, &names));
+            let number = number.transpose()?;
+            self.add(&at, |builder| {
+                Ok(match number {
+                    Some(number) if between_points => builder.distance(names[0], names[1], number),
+                    Some(number) => builder.dimension(kind.key, names, number),
+                    None => builder.constraint(kind.key, names),
+                })
+            })?;
         }
-        Ok(builder)
+        Ok(())
+    }
+
+    pub(super) fn squared_distances(&mut self, list: &At) -> Result<(), FileError> {
+        let wanted = "[\"point\", \"point\", number]";
+        for at in list.list(&format!("a list of {wanted} in brackets"))? {
+            let parts = at.list(wanted)?;
+            let [a, b, number] = &parts[..] else {
+                return Err(at.is_wrong(wanted, &format!("a list of {}", parts.len())));
+            };
+            let [a, b] = [a, b].map(|end| end.text("a point's name in quotes"));
+            let (a, b) = (a?, b?);
+            let number = self.number_of(number, &[a, b])?;
+            self.add(&at, |builder| Ok(builder.squared_distance(a, b, number)))?;
+        }
+        Ok(())
+    }
+
+    /// The number of a constraint, which may be an expression where the file has parameters.
+    fn number_of(&self, number: &At, names: &[&str]) -> Result<Decimal, FileError> {
+        let names = names.iter().map(|n| n.chars().take(40).collect());
+        let names = names.collect::<Vec<String>>().join("-");
+        let number = number.named(format!("{}: {names}", number.key));
+        match number.item.as_str() {
+            Some(text) if !self.parameters.is_empty() => {
+                expression::evaluate(text, &self.parameters).map_err(|why| number.fault(why))
+            }
+            _ => number.number(),
+        }
     }
 
     /// The keys that may be under `[constraints]`.
@@ -235,4 +135,65 @@ impl Reader<'_> {
         keys.extend(["squared_distances", "orientation"]);
         keys
     }
+}
+
+/// An object of a table.
+fn object(
+    table: &str,
+    name: &str,
+    at: &At,
+    builder: ProblemBuilder,
+) -> Result<ProblemBuilder, FileError> {
+    let wrong = || at.wrong(wanted(table));
+    if table == "unknowns" {
+        let value = Some(at).filter(|at| at.item.is_value());
+        return Ok(builder.unknown(name, value.ok_or_else(wrong)?.number()?));
+    }
+    if table == "joints" {
+        return joint::joint(name, at, builder);
+    }
+    if at.item.is_array() {
+        let points = at.texts("names of points in brackets, each in quotes")?;
+        return match (table, points.as_slice()) {
+            ("lines", [a, b]) => Ok(builder.line(name, a, b)),
+            ("planes", &[a, b, c]) => Ok(builder.plane(name, [a, b, c])),
+            _ => Err(wrong()),
+        };
+    }
+    if !at.item.is_table_like() {
+        return Err(wrong());
+    }
+    let part = |part: &str| at.get(part).ok_or_else(wrong);
+    let point = |name: &str| part(name)?.text(TEXT);
+    let numbers = |name: &str| -> Result<Vec<Decimal>, FileError> {
+        let list = part(name)?.list("").map_err(|_| wrong())?;
+        list.iter().map(At::number).collect()
+    };
+    Ok(match table {
+        "lines" => {
+            at.known_keys(&["point", "direction"])?;
+            builder.free_line(name, numbers("point")?, numbers("direction")?)
+        }
+        "planes" => {
+            at.known_keys(&["point", "normal"])?;
+            builder.free_plane(name, numbers("point")?, numbers("normal")?)
+        }
+        "circles" | "spheres" => {
+            at.known_keys(&["center", "radius"])?;
+            let (radius, center) = (part("radius")?.number()?, point("center")?);
+            match table {
+                "circles" => builder.circle(name, center, radius),
+                _ => builder.sphere(name, center, radius),
+            }
+        }
+        "arcs" => {
+            at.known_keys(&["center", "start", "end"])?;
+            builder.arc(name, point("center")?, point("start")?, point("end")?)
+        }
+        _ => {
+            let members = at.entries()?.into_iter();
+            let members = members.map(|(point, _)| Ok((point, numbers(point)?)));
+            builder.body(name, members.collect::<Result<Vec<_>, FileError>>()?)
+        }
+    })
 }

@@ -119,7 +119,7 @@ impl Problem {
         };
         for table in super::vocabulary::TABLES {
             let objects = self.objects.iter().filter(|object| {
-                let what = super::draft::what(self.dimension, &object.shape);
+                let what = object.kind(self.dimension);
                 table.strip_suffix('s') == Some(what) || (table, what) == ("bodies", "body")
             });
             for (index, object) in objects.enumerate() {
@@ -223,7 +223,7 @@ fn quoted(text: &str) -> String {
 
 /// A decimal in TOML's grammar for floats: a digit on either side of the point, no zeros
 /// in front.
-fn number(decimal: &Decimal) -> String {
+pub fn number(decimal: &Decimal) -> String {
     let text = decimal.text();
     let (sign, unsigned) = match text.strip_prefix('-') {
         Some(unsigned) => ("-", unsigned),

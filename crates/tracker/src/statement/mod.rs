@@ -4,6 +4,7 @@
 
 use crate::decimal::Decimal;
 use crate::interval::{Interval, enclose};
+use crate::places::Each as _;
 use crate::rational::Rational;
 use std::collections::BTreeMap;
 
@@ -85,6 +86,27 @@ pub struct Point {
     pub name: String,
     /// Coordinates in the sketch; the third is zero in the plane.
     pub sketch: [Decimal; 3],
+}
+
+impl Point {
+    /// Where the sketch has it, in floats.
+    pub fn place(&self) -> [f64; 3] {
+        self.sketch.each_ref().each(|x| x.to_f64())
+    }
+}
+
+/// For each point the points joined to it, in the order of the pairs, with the index of the pair.
+#[doc(hidden)]
+pub fn neighbours(
+    points: usize,
+    pairs: impl IntoIterator<Item = [usize; 2]>,
+) -> Vec<Vec<(usize, usize)>> {
+    let mut joined = vec![Vec::new(); points];
+    for (index, [a, b]) in pairs.into_iter().enumerate() {
+        joined[a].push((b, index));
+        joined[b].push((a, index));
+    }
+    joined
 }
 
 /// The constraint that two points are at a given distance.

@@ -4,16 +4,14 @@ use crate::equations::Ring;
 use crate::interval::Interval;
 use crate::interval::vector::{cross, dot, minus};
 use crate::order::each_once;
+use crate::statement::neighbours;
 
 /// Each point with as many of the points joined to it as there are dimensions, in order, each set once.
 pub fn simplices(dimension: usize, points: usize, pairs: &[[usize; 2]]) -> Vec<Vec<usize>> {
-    let mut joined = vec![Vec::new(); points];
-    for &[a, b] in pairs {
-        joined[a].push(b);
-        joined[b].push(a);
-    }
+    let joined = neighbours(points, pairs.iter().copied());
     let mut all: Vec<Vec<usize>> = Vec::new();
-    for (centre, joined) in joined.into_iter().map(each_once).enumerate() {
+    for (centre, joined) in joined.into_iter().enumerate() {
+        let joined = each_once(joined.into_iter().map(|(point, _)| point));
         for (i, &a) in joined.iter().enumerate() {
             for (j, &b) in joined.iter().enumerate().skip(i + 1) {
                 if dimension == 2 {

@@ -7,6 +7,7 @@ mod triangle;
 pub use rigidity::{Rigidity, rigidity, rigidity_row};
 pub(super) use sketch::{coincide, collinear};
 
+use super::error::Place;
 use super::{DEPENDS, Distance, Point, ProblemError, free_coordinates, list};
 use crate::order::each_once;
 use crate::statement::{counted, either};
@@ -35,15 +36,33 @@ pub(super) fn check_structure(
     .collect();
     let parts = parts.join("; ");
     Err(match found.circuit.last() {
-        Some(&index) if edges.len() == needed => ProblemError::Structure { index, parts },
-        _ => ProblemError::Count {
-            dimension,
-            points: points.len(),
-            needed,
-            given: edges.len(),
-            parts,
-        },
+        Some(&index) if edges.len() == needed => {
+            let text = "the distances are as many as needed, but not where they are needed";
+            ProblemError::structure(Place::Distance(index), format!("{text}: {parts}"))
+        }
+        _ => {
+            let counts = [points.len(), needed, edges.len()];
+            let text = count_message(dimension, counts, &parts);
+            ProblemError::structure(Place::Distances, text)
+        }
     })
+}
+
+fn count_message(dimension: usize, [points, needed, given]: [usize; 3], parts: &str) -> String {
+    let (space, formula) = match dimension {
+        2 => ("the plane", format!("2·{points} − 3")),
+        _ => ("space", format!("3·{points} − 6")),
+    };
+    let verdict = match needed.abs_diff(given) {
+        n if given < needed => format!("{n} {} missing", either(n, "is", "are")),
+        n => format!("{n} {} too many", either(n, "is", "are")),
+    };
+    let are = either(given, "is", "are");
+    let colon = if parts.is_empty() { "" } else { "; " };
+    format!(
+        "{points} points in {space} need {formula} = {needed} distances, and there {are} {given}: \
+         {verdict}{colon}{parts}"
+    )
 }
 
 fn over_constrained(found: &Rigidity, points: &[Point], edges: &[[usize; 2]]) -> Option<String> {

@@ -11,6 +11,7 @@ use crate::elimination::Echelon;
 use crate::equations::Ring;
 use crate::order::{InOrder, each_once};
 use crate::residues::{Residue, Residues};
+use crate::statement::neighbours;
 
 /// What the graph of the distances fixes and what not.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -131,14 +132,10 @@ impl<'a> Matrix<'a> {
                 add_frame(edge);
             }
         } else {
-            let mut joined = vec![Vec::new(); points];
-            for &[a, b] in self.edges {
-                joined[a].push(b);
-                joined[b].push(a);
-            }
+            let joined = neighbours(points, self.edges.iter().copied());
             for (middle, ends) in joined.iter().enumerate() {
-                for (i, &a) in ends.iter().enumerate() {
-                    for &b in &ends[i + 1..] {
+                for (i, &(a, _)) in ends.iter().enumerate() {
+                    for &(b, _) in &ends[i + 1..] {
                         if a != b && keeps(a, b) {
                             add_frame(&[middle, a, b]);
                         }
@@ -160,12 +157,9 @@ impl<'a> Matrix<'a> {
 /// next, which are then joined with each other as the elimination joins them. Keeps the rows
 /// short.
 fn elimination_order(points: usize, edges: &[[usize; 2]]) -> Vec<usize> {
-    let mut neighbours = vec![Vec::new(); points];
-    for &[a, b] in edges {
-        neighbours[a].push(b);
-        neighbours[b].push(a);
-    }
-    let mut neighbours: Vec<Vec<usize>> = neighbours.into_iter().map(each_once).collect();
+    let neighbours = neighbours(points, edges.iter().copied()).into_iter();
+    let neighbours = neighbours.map(|all| each_once(all.into_iter().map(|(p, _)| p)));
+    let mut neighbours: Vec<Vec<usize>> = neighbours.collect();
     let mut place = vec![usize::MAX; points];
     for turn in 0..points {
         let Some(next) = (0..points)

@@ -3,6 +3,7 @@
 use crate::interval::Interval;
 use crate::places::Each as _;
 use crate::problem::Problem;
+use crate::statement::neighbours;
 
 impl Problem {
     /// Says which target lengths no figure has, where three of them belong to a triangle and one is longer
@@ -30,12 +31,7 @@ impl Problem {
             .map(|distance| distance.target.enclose())
             .collect();
         // The distances of each point: the other end, and which.
-        let mut joined = vec![Vec::new(); self.points.len()];
-        for (index, distance) in self.distances.iter().enumerate() {
-            let [a, b] = distance.points;
-            joined[a].push((b, index));
-            joined[b].push((a, index));
-        }
+        let joined = neighbours(self.points.len(), self.distances.iter().map(|d| d.points));
         let mut length_to = vec![None; self.points.len()];
         for (index, distance) in self.distances.iter().enumerate() {
             let [a, b] = distance.points;
