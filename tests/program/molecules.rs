@@ -157,5 +157,33 @@ fn hydrogens_are_left_out_and_put_back() {
         said.contains("Complete, proved: 1 solution") && !said.contains("H2"),
         "{said}"
     );
-    let turned = places(&std::fs::read_to_string(&out).unwrap());
+    let back = places(&std::fs::read_to_string(&out).unwrap());
+    for (a, b) in [(0, 1), (1, 2), (1, 3), (1, 4), (5, 4), (5, 0), (5, 3)] {
+        let (old, new) = (apart(&before, a, b), apart(&back, a, b));
+        assert!((old - new).abs() < 1e-5, "{a} {b}: {old} {new}");
+    }
+    for three in [[1, 2, 3], [2, 3, 4], [5, 3, 4]] {
+        let (old, new) = (volume(&before, three), volume(&back, three));
+        assert!((old - new).abs() < 1e-4, "{three:?}: {old} {new}");
+    }
+    // A longer bond: each stays as far from the atom that it is bonded to.
+    run(&[
+        "edit",
+        "--heavy",
+        "--set",
+        "C1-O5=1.7",
+        written[0],
+        written[1],
+    ]);
+    let longer = places(&std::fs::read_to_string(&out).unwrap());
+    assert!((apart(&longer, 0, 4) - 1.7).abs() < 1e-6);
+    for (a, b) in [(0, 1), (4, 5)] {
+        let (old, new) = (apart(&before, a, b), apart(&longer, a, b));
+        assert!((old - new).abs() < 1e-6, "{a} {b}: {old} {new}");
+    }
+    let (code, _, error) = krawl(&["all", "problems/k33.toml", "--heavy"]);
+    assert!(
+        code == Some(2) && error.contains("--heavy is for molecules"),
+        "{error}"
+    );
 }
