@@ -3,13 +3,13 @@
 use super::output::{self, Destination};
 use super::results::Results;
 use super::{CLOSED, STOPPED, interrupt};
-use krawl::compare::{Comparison, Effort, Hooks, Method, compare, record_path};
+use krawl::compare::{Comparison, Effort, Method, compare, record_path};
 use krawl::problem::{Problem, Published};
 use krawl::report::{
     Compared, ProgressLine, comparison_to_table, comparisons_to_csv, comparisons_to_json, picture,
 };
 use krawl::system::Homotopy;
-use krawl::track::Progress;
+use krawl::track::{Control, Progress};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -92,11 +92,12 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
         output::say_if_signs_are_not_looked_at(&subject.problem);
         let line = ProgressLine::new(!arguments.quiet, &which);
         let mut show = |now: Progress| line.show(now);
-        let mut hooks = Hooks {
+        let mut control = Control {
             cancel: Some(interrupt::flag()),
             progress: Some(&mut show),
+            ..Control::default()
         };
-        let result = compare(&subject.problem, &effort, &mut hooks);
+        let result = compare(&subject.problem, &effort, &mut control);
         line.clear();
         let comparison = result.map_err(|error| format!("{}: {error}", file.display()))?;
         let compared = Compared {

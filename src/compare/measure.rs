@@ -5,8 +5,7 @@ use crate::interval::rounding::largest;
 use crate::order::InOrder;
 use crate::problem::Problem;
 use crate::system::Homotopy;
-use crate::track::{Control, Limit, Options, Outcome, Progress, Status, Stop, StopKind, solve};
-use std::sync::atomic::{AtomicBool, Ordering};
+use crate::track::{Control, Limit, Options, Outcome, Status, Stop, StopKind, solve};
 use std::time::{Duration, Instant};
 
 /// How much is run.
@@ -27,21 +26,6 @@ impl Default for Effort {
             sweep: false,
             limit: 120.0,
         }
-    }
-}
-
-/// Talk to the caller.
-#[derive(Default)]
-pub struct Hooks<'a> {
-    /// Set from outside to break off.
-    pub cancel: Option<&'a AtomicBool>,
-    /// Called now and then within runs.
-    pub progress: Option<&'a mut dyn FnMut(Progress)>,
-}
-
-impl Hooks<'_> {
-    pub(super) fn is_cancelled(&self) -> bool {
-        self.cancel.is_some_and(|flag| flag.load(Ordering::Relaxed))
     }
 }
 
@@ -113,14 +97,14 @@ impl<'a> Session<'a> {
     pub fn run(
         &mut self,
         ways: impl IntoIterator<Item = (Way, Option<Setting>)>,
-        hooks: &mut Hooks,
+        control: &mut Control,
     ) -> Vec<Row> {
         let options_of = |way: Way, setting: Option<Setting>| {
             setting.map_or(way.options(), |setting| setting.apply(way.options()))
         };
         let mut rows = Vec::new();
         for (way, setting) in ways {
-            let Some(result) = self.once(&options_of(way, setting), hooks) else {
+            let Some(result) = self.once(&options_of(way, setting), control) else {
                 break;
             };
             let result = result.map(|outcome| {
@@ -148,7 +132,7 @@ impl<'a> Session<'a> {
                 if measured.seconds.iter().sum::<f64>() > ENOUGH {
                     continue;
                 }
-                match self.once(&options_of(row.way, row.setting), hooks) {
+                match self.once(&options_of(row.way, row.setting), control) {
                     Some(Ok(outcome)) => measured.seconds.push(outcome.seconds),
                     Some(Err(_)) => {}
                     None => break 'rounds,
@@ -164,31 +148,23 @@ impl<'a> Session<'a> {
     }
 
     /// One run. Nothing, if it was broken off; an error, if this way cannot take the problem.
-    fn once(&self, options: &Options, hooks: &mut Hooks) -> Option<Result<Outcome, String>> {
-        if hooks.is_cancelled() {
+    fn once(&self, options: &Options, control: &mut Control) -> Option<Result<Outcome, String>> {
+        if control.is_interrupted() {
             return None;
         }
         let started = Instant::now();
-        let limit = Limit {
+        control.limit = Some(Limit {
             length: self.length,
             deadline: started + Duration::from_secs_f64(self.effort.limit),
-        };
-        let mut control = Control {
-            cancel: hooks.cancel,
-            limit: Some(limit),
-            progress: match &mut hooks.progress {
-                Some(progress) => Some(&mut **progress),
-                None => None,
-            },
-            ..Control::default()
-        };
-        let result = solve(self.problem, options, &mut control);
+        });
+        control.reported = None;
+        let result = solve(self.problem, options, control);
         let mut outcome = match result {
             Ok(outcome) => outcome,
             Err(error) => return Some(Err(error.to_string())),
         };
         if let Status::Stopped(reason) = &mut outcome.status {
-            if hooks.is_cancelled() {
+            if control.is_interrupted() {
                 return None;
             }
             if outcome.length > self.length {

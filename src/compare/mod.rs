@@ -1,11 +1,11 @@
 //! What accuracy costs: a problem in all modes and spaces, timed, judged against the certified run.
 //!
 //! ```
-//! use krawl::compare::{Effort, Hooks, Verdict, compare};
+//! use krawl::compare::{Effort, Verdict, compare};
 //! use krawl::problem::Problem;
 //! let problem = Problem::read("problems/k33.toml")?;
 //! let effort = Effort { repeats: 1, ..Effort::default() };
-//! let comparison = compare(&problem, &effort, &mut Hooks::default())?;
+//! let comparison = compare(&problem, &effort, &mut Default::default())?;
 //! let certified = &comparison.rows[0];
 //! assert_eq!(certified.measured().unwrap().outcome.solutions.len(), 8);
 //! let mut measured = comparison.rows.iter().filter(|row| row.measured().is_some());
@@ -28,12 +28,13 @@ mod residual;
 mod ways;
 
 pub use judge::{Fault, Verdict};
-pub use measure::{Effort, Hooks, Measured};
+pub use measure::{Effort, Measured};
 pub use path::{PathPoint, RecordedPath, record_path};
 pub use ways::{Knob, Method, Setting, Way};
 
 use crate::problem::Problem;
 use crate::system::{GaugeError, Homotopy};
+use crate::track::Control;
 use judge::Reference;
 use matching::Matching;
 use measure::Session;
@@ -89,18 +90,19 @@ impl Comparison {
     /// Whether what others are judged by is the arc between two ends of a path that a certified run proved, not a closed
     /// path.
     pub fn reference_is_arc(&self) -> bool {
-        let mut certified = self
-            .rows
-            .iter()
-            .filter(|row| row.way.method == Method::Certified && row.verdict == Verdict::Right);
-        self.has_reference() && certified.all(|row| row.measured().is_some_and(|m| !m.is_closed()))
+        let is_open = |row: &Row| row.measured().is_some_and(|m| !m.is_closed());
+        self.has_reference() && self.certified().all(is_open)
     }
 
     /// Whether a certified run closed or ended open, so that others can be judged.
     pub fn has_reference(&self) -> bool {
-        self.rows
-            .iter()
-            .any(|row| row.way.method == Method::Certified && row.verdict == Verdict::Right)
+        self.certified().next().is_some()
+    }
+
+    /// The certified runs by which others are judged.
+    fn certified(&self) -> impl Iterator<Item = &Row> {
+        let rows = self.rows.iter();
+        rows.filter(|row| row.way.method == Method::Certified && row.verdict == Verdict::Right)
     }
 }
 
@@ -111,17 +113,17 @@ impl Comparison {
 pub fn compare(
     problem: &Problem,
     effort: &Effort,
-    hooks: &mut Hooks,
+    control: &mut Control,
 ) -> Result<Comparison, GaugeError> {
     let homotopy = Homotopy::new(problem)?;
     let typical_length = homotopy.unit;
     let matching = Matching::new(&homotopy);
     let mut session = Session::new((problem, &homotopy), effort);
-    let mut rows = session.run(Way::all().map(|way| (way, None)), hooks);
+    let mut rows = session.run(Way::all().map(|way| (way, None)), control);
     let reference = Reference::among(&rows, &matching);
     judge::all(&mut rows, reference.as_ref());
     let mut sweep = Vec::new();
-    if effort.sweep && !hooks.is_cancelled() {
+    if effort.sweep && !control.is_interrupted() {
         session.limit_length(reference.as_ref().and_then(Reference::length));
         let settings = rows
             .iter()
@@ -130,7 +132,7 @@ pub fn compare(
                 let settings = ways::settings(row.way, typical_length);
                 settings.map(|setting| (row.way, Some(setting)))
             });
-        sweep = session.run(settings, hooks);
+        sweep = session.run(settings, control);
         judge::all(&mut sweep, reference.as_ref());
     }
     Ok(Comparison {
@@ -138,6 +140,6 @@ pub fn compare(
         typical_length,
         rows,
         sweep,
-        interrupted: hooks.is_cancelled(),
+        interrupted: control.is_interrupted(),
     })
 }

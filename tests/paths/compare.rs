@@ -1,7 +1,7 @@
 //! `krawl compare`: tables, JSON, CSV, pictures, and what it says of wrong answers.
 
 use assert_cmd::Command;
-use krawl::compare::{Effort, Fault, Hooks, Knob, Method, Row, Verdict, compare};
+use krawl::compare::{Effort, Fault, Knob, Method, Row, Verdict, compare};
 use krawl::problem::Problem;
 use krawl::report::{Compared, comparison_to_table, comparisons_to_csv, comparisons_to_json};
 use krawl::track::Space;
@@ -318,7 +318,7 @@ fn a_sweep_marks_the_settings_that_jump() {
         sweep: true,
         ..Effort::default()
     };
-    let comparison = compare(&problem, &effort, &mut Hooks::default()).unwrap();
+    let comparison = compare(&problem, &effort, &mut Default::default()).unwrap();
     assert!(comparison.has_reference());
     let at = |method: Method, knob: Knob, relative: f64| -> &Row {
         let mut rows = comparison.sweep.iter();
@@ -624,7 +624,7 @@ fn a_certified_run_that_ended_earlier_is_told() {
         repeats: 1,
         ..Effort::default()
     };
-    let mut comparison = compare(&problem, &effort, &mut Hooks::default()).unwrap();
+    let mut comparison = compare(&problem, &effort, &mut Default::default()).unwrap();
     let is_reduced =
         |row: &&mut Row| row.way.method == Method::Certified && row.way.space == Space::Reduced;
     let row = comparison.rows.iter_mut().find(is_reduced).unwrap();
