@@ -74,6 +74,9 @@ fn check(arguments: &Arguments) -> Result<u8, String> {
     let opened = contents(BufReader::new(file)).map_err(|error| format!("{name}: {error}"));
     let (contents, mut file) = opened?;
     let file_of = arguments.file.as_ref();
+    if file_of.is_none() && (arguments.which.sketch.is_some() || arguments.which.heavy) {
+        return Err("--sketch and --heavy say what of FILE is meant: name it, too".to_owned());
+    }
     let of_file = file_of.map(|path| of_file(path, &arguments.which, contents));
     let of_file = of_file.transpose()?;
     let of_file = of_file.as_deref();

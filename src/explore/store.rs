@@ -11,7 +11,7 @@ use std::io::{Error, ErrorKind};
 use std::path::{Path, PathBuf};
 
 const KIND: Kind = Kind {
-    name: "store of krawl explore",
+    name: "a store of krawl explore",
     version: 2,
 };
 
@@ -143,6 +143,7 @@ impl Store {
     /// Opens the store in a folder for a problem, given as the text of its file, or makes it; and what is in it.
     pub fn open(folder: &Path, problem: &str) -> Result<(Self, Contents), StoreError> {
         std::fs::create_dir_all(folder).map_err(|e| failed(folder, e))?;
+        Self::check(folder)?;
         let (mut store, whole) = Self::at(folder)?;
         let Some(whole) = whole else {
             let problem = problem.to_owned();
@@ -160,6 +161,7 @@ impl Store {
 
     /// Opens the store in a folder that has one, and hands out its problem and what is in it.
     pub fn existing(folder: &Path) -> Result<(Self, String, Contents), StoreError> {
+        Self::check(folder)?;
         let missing = || StoreError::Missing(folder.to_owned());
         if !file(folder).is_file() {
             return Err(missing());
@@ -169,18 +171,28 @@ impl Store {
         Ok((store, whole.about.problem.clone(), contents(whole)))
     }
 
-    fn at(folder: &Path) -> Result<(Self, Option<Whole<About, Line>>), StoreError> {
-        if folder.join("explore.redb").exists() {
-            let what = "krawl 0.1.0 before December 2026 wrote this store; name another folder";
-            return Err(StoreError::Failed(folder.to_owned(), what.to_owned()));
+    /// That no krawl of before December 2026 wrote it, which kept a database.
+    fn check(folder: &Path) -> Result<(), StoreError> {
+        match folder.join("explore.redb").exists() {
+            false => Ok(()),
+            true => {
+                let what = "another version of krawl wrote this store; name another folder";
+                Err(StoreError::Failed(folder.to_owned(), what.to_owned()))
+            }
         }
+    }
+
+    fn at(folder: &Path) -> Result<(Self, Option<Whole<About, Line>>), StoreError> {
         let opened = KIND.open::<About, Line>(&file(folder));
         let (journal, whole) = opened.map_err(|error| match error.kind() {
             ErrorKind::WouldBlock => StoreError::Busy(folder.to_owned()),
-            _ => failed(folder, error),
+            _ => failed(&file(folder), error),
         })?;
         if let Some(line) = whole.as_ref().and_then(|whole| whole.damaged) {
-            let what = format!("line {line} of {} is damaged", file(folder).display());
+            let what = format!(
+                "line {line} of {} is damaged: where the lines from there on are cut off, what they were about is followed again",
+                file(folder).display()
+            );
             return Err(StoreError::Failed(folder.to_owned(), what));
         }
         let folder = folder.to_owned();
@@ -278,12 +290,22 @@ mod tests {
         std::fs::write(file(folder.path()), &text[..text.len() - 3]).unwrap();
         let (_, _, contents) = Store::existing(folder.path()).unwrap();
         assert_eq!(contents.queue(), BTreeSet::from([3]));
+        // Nor can a line come twice or be left out.
+        let lines: Vec<&[u8]> = text.split_inclusive(|&b| b == b'\n').collect();
+        for (other, number) in [
+            ([&text[..], lines[1]].concat(), 4),
+            ([lines[0], lines[2]].concat(), 2),
+        ] {
+            std::fs::write(file(folder.path()), &other).unwrap();
+            let error = Store::existing(folder.path()).unwrap_err().to_string();
+            assert!(error.contains(&format!("line {number} of")), "{error}");
+        }
         let mut damaged = text.clone();
         damaged[text.len() - 3] ^= 1;
         std::fs::write(file(folder.path()), &damaged).unwrap();
         let error = Store::existing(folder.path()).unwrap_err().to_string();
         assert!(
-            error.contains("line 3 of") && error.ends_with("is damaged"),
+            error.contains("line 3 of") && error.contains("is damaged"),
             "{error}"
         );
         assert_eq!(std::fs::read(file(folder.path())).unwrap(), damaged);

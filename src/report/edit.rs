@@ -309,7 +309,9 @@ fn write_edit(
         };
         writeln!(
             out,
-            "  not kept          {names}: up to t = {lo:.6}, not from there to {hi:.6}: {end}"
+            "  not kept          {names}: up to t = {}, not from there to {}: {end}",
+            rounded(lo, f64::floor),
+            rounded(hi, f64::ceil)
         )?;
     }
     if orientations.lost.len() > LISTED {

@@ -78,7 +78,7 @@ pub fn motion_to_table(motion: &Motion) -> String {
     out += &grid.render();
     let _ = writeln!(
         out,
-        "\nNo figure of the way is beyond these values, and one reaches each{}, proved{}; they differ from the exact ones by at most 1 in the \
+        "\nNo figure of the way is beyond these values, and figures come as near to each{} as its digits tell, proved{}; they differ from the exact ones by at most 1 in the \
          last digit shown. Angles are in degrees.",
         if is_sharp {
             ""

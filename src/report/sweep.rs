@@ -4,7 +4,7 @@ use super::certain_digits;
 use super::columns::{Grid, written};
 use super::edit::{behind, edit_in_words, limit_in_words, short, write_moved};
 use super::measured::{Measures, Placed};
-use super::tolerance::rounded;
+use super::tolerance::rounded_at;
 use crate::edit::{Edited, End, Ending, Moved, Range, Sweep};
 use crate::interval::Interval;
 use crate::problem::Problem;
@@ -100,13 +100,19 @@ fn value_of(end: &End, beyond: &str, back: fn(f64) -> f64) -> String {
     }
 }
 
-/// Up to where something is proved that is proved up to somewhere in an interval: `back` rounds to where it comes from.
+/// Up to where something is proved that is proved up to somewhere in an interval, with the digits that are certain: `back` rounds to where it
+/// comes from.
 pub(super) fn not_beyond(value: Interval, back: fn(f64) -> f64) -> String {
     let end = match back(0.5) > 0.5 {
         true => value.sup(),
         false => value.inf(),
     };
-    rounded(end, back)
+    let known = value.wid().max(1e-15 * value.mag());
+    let text = rounded_at(end, -known.log10().floor(), back);
+    match text.contains('.') {
+        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
+        false => text,
+    }
 }
 
 /// The edit that a sweep did not get over, if there is one.

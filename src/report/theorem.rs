@@ -2,6 +2,7 @@
 
 use super::certain_digits;
 use super::columns::written;
+use super::tolerance::rounded_at;
 use crate::certificate::{Outcome, Verdict};
 use crate::constraint::{Symmetry, symmetry};
 use crate::interval::{Interval, point};
@@ -17,6 +18,10 @@ pub fn theorem(verdict: &Verdict, time: Duration) -> String {
 fn write_theorem(out: &mut String, verdict: &Verdict, time: Duration) -> std::fmt::Result {
     let name = &verdict.problem.name;
     let (low, high) = verdict.t_range;
+    let (from, to) = (
+        rounded_at(low, 6.0, f64::floor),
+        rounded_at(high, 6.0, f64::ceil),
+    );
     match &verdict.outcome {
         Outcome::Verified if !verdict.arcs.is_empty() => write_edits(out, verdict)?,
         Outcome::Verified => {
@@ -39,7 +44,7 @@ fn write_theorem(out: &mut String, verdict: &Verdict, time: Duration) -> std::fm
                  for the exact decimals in it, and S {}.\n\
                  1. {first}.\n\
                  2. {curve} has exactly {} with t = 1{}, one in each of {}; {}.\n\
-                 3. On {on_it} t stays between {low:.6} and {high:.6}, and all lengths stay positive.",
+                 3. On {on_it} t stays between {from} and {to}, and all lengths stay positive.",
                 curve_in_words(verdict),
                 counted(count, "point"),
                 degenerate_in_words(verdict),
@@ -64,8 +69,8 @@ fn write_theorem(out: &mut String, verdict: &Verdict, time: Duration) -> std::fm
         Outcome::Partial(reason) => writeln!(
             out,
             "{name}: INCOMPLETE. The certificate ends early: {reason}.\n\
-             Verified so far: an arc of the curve through the sketch, {}, with t between {low:.6} and \
-             {high:.6}, and on it exactly {} with t = 1{}. Nothing is claimed of the rest of \
+             Verified so far: an arc of the curve through the sketch, {}, with t between {from} and \
+             {to}, and on it exactly {} with t = 1{}. Nothing is claimed of the rest of \
              the curve.",
             regular_in_words(verdict),
             counted(verdict.solutions.len(), "point"),

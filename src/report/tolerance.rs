@@ -200,11 +200,12 @@ pub(super) fn short(x: f64) -> String {
 /// A bound with some digits, rounded away from what it bounds.
 pub(super) fn rounded(x: f64, to: impl Fn(f64) -> f64) -> String {
     let size = x.abs().log10().floor();
-    let places = if size.is_finite() {
-        (5.0 - size).clamp(0.0, 15.0)
-    } else {
-        6.0
-    };
+    rounded_at(x, if size.is_finite() { 5.0 - size } else { 6.0 }, to)
+}
+
+/// A bound with so many digits behind the point, at most 15, likewise.
+pub(super) fn rounded_at(x: f64, places: f64, to: impl Fn(f64) -> f64) -> String {
+    let places = places.clamp(0.0, 15.0);
     let scale = 10f64.powf(places);
     let mut shown = to(x * scale) / scale;
     // The product is rounded.

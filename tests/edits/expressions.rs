@@ -132,14 +132,61 @@ fn variables_are_read_and_set() {
     );
     let (code, text) = set(&out.clone(), "VarSet.n=3");
     assert!(code == 0 && text.contains("long to 90, computed"), "{text}");
+    let twice = ["--set", "VarSet.n=3", "--set", "VarSet.n=4"];
+    let (code, text) = run(&file, &[&["edit"], &twice[..]].concat());
+    assert!(
+        code == 2 && text.contains("VarSet.n is set twice"),
+        "{text}"
+    );
     for (to, words) in [
-        ("VarSet.n=2.5", "a whole number"),
+        ("VarSet.n=2.5", "is a whole number in the file"),
         ("VarSet.low=3", "is computed, by `width / 2 + 2 mm`"),
         ("VarSet.area=3", "VarSet.area"),
         ("VarSet.width=wide", "no number"),
     ] {
         let (code, text) = set(&file, to);
         assert!(code == 2 && text.contains(words), "{words}: {text}");
+    }
+}
+
+/// A whole number that would come to a part of one is not followed.
+#[test]
+fn a_whole_variable_stays_whole() {
+    let number = |kind: &str, name: &str, value: &str| {
+        format!(
+            "<Property name=\"{name}\" type=\"App::Property{kind}\" group=\"Base\">{value}</Property>"
+        )
+    };
+    let variables = [
+        number("Length", "width", "<Float value=\"20.0\"/>"),
+        number("Integer", "n", "<Integer value=\"2\"/>"),
+        number(
+            "ExpressionEngine",
+            "ExpressionEngine",
+            "<ExpressionEngine><Expression path=\"n\" expression=\"width / 10 mm\"/></ExpressionEngine>",
+        ),
+    ];
+    let variables = variables.concat();
+    let bytes = beside(
+        [20.0, 12.0, 40.0, 30.0],
+        &[("Constraints.long", "VarSet.n * 20 mm")],
+        &[("App::VarSet", "VarSet", &variables)],
+    );
+    for (to, led, warned) in [("30", 1, 0), ("25", 0, 1)] {
+        let mut imported = read(&bytes);
+        assert_eq!(imported.set_cell("VarSet.width", to), Some(Ok(())));
+        let (set, warnings) = followed(&imported, &[]);
+        assert_eq!(
+            (set.len(), warnings.len()),
+            (led, warned),
+            "{set:?} {warnings:?}"
+        );
+        assert!(
+            warnings
+                .iter()
+                .all(|text| text.contains("VarSet.n is a whole number in the file, and 2.5 by it")),
+            "{warnings:?}"
+        );
     }
 }
 

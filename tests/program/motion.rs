@@ -127,12 +127,14 @@ fn what_is_reached_by_no_figure_is_not_said_to_be() {
     let (_, text, error) = krawl(&["motion", file, "--measure", "angle B D A"]);
     assert!(text.contains("at most 180.0"), "{text}{error}");
     assert!(
-        text.contains("one reaches each but those at least or at most so great, proved"),
+        text.contains(
+            "come as near to each but those at least or at most so great as its digits tell, proved"
+        ),
         "{text}"
     );
     let (_, text, error) = krawl(&["motion", file, "--measure", "B-D"]);
     assert!(
-        text.contains("and one reaches each, proved"),
+        text.contains("come as near to each as its digits tell, proved"),
         "{text}{error}"
     );
 }

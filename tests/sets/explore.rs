@@ -300,9 +300,9 @@ fn work_units_come_to_the_same_end() {
     assert_eq!(contents_of().2, plain.contents().classes.len());
 }
 
-/// Of a line behind the first, as krawl writes it.
-pub fn checksum(first: &str, line: &str) -> String {
-    let digest = Sha256::new().chain_update(first).chain_update(line);
+/// Of a line behind another, as krawl writes it.
+pub fn checksum(last: &str, line: &str) -> String {
+    let digest = Sha256::new().chain_update(last).chain_update(line);
     let bytes = digest.finalize();
     bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }
@@ -327,11 +327,21 @@ fn wrong_results_add_no_solution() {
     let merge = || krawl().arg("merge").arg(&store).arg(&result).assert();
     let head = text.lines().next().unwrap();
     let other = head.replace("problem\":\"", "problem\":\"#");
-    fs::write(&result, text.replace(head, &other)).unwrap();
-    merge().code(2);
+    // With its checksum or without.
+    let (first, _) = other.rsplit_once(' ').unwrap();
+    let signed = format!("{first} {}", checksum("", first));
+    for (other, said) in [
+        (&other, "first line is damaged"),
+        (&signed, "about another problem"),
+    ] {
+        fs::write(&result, format!("{other}\n")).unwrap();
+        let refused = merge().code(2);
+        let text = String::from_utf8(refused.get_output().stderr.clone()).unwrap();
+        assert!(text.contains(said), "{text}");
+    }
     // Solutions moved by a thousandth: Newton's method finds them again, but not where they are said to be.
     let mut moved = 0;
-    let (about, _) = head.rsplit_once(' ').unwrap();
+    let mut last = head.rsplit_once(' ').unwrap().0.to_owned();
     let lines = text.lines().skip(1).map(|line| {
         let (_, record) = line.split_once(' ').unwrap();
         let mut record: Value = serde_json::from_str(record).unwrap();
@@ -346,7 +356,8 @@ fn wrong_results_add_no_solution() {
             moved += 1;
         }
         let record = record.to_string();
-        format!("{} {record}\n", checksum(about, &record))
+        last = checksum(&last, &record);
+        format!("{last} {record}\n")
     });
     let moved_text: String = lines.collect();
     fs::write(&result, format!("{head}\n{moved_text}")).unwrap();

@@ -1,7 +1,8 @@
 //! Journals: files of lines that are only ever appended, by one process at a time.
 //!
-//! The first line says what a journal is about; every line has a checksum of itself and of the first, so that none passes
-//! into another file. A process that is killed leaves at most one line that is cut off, which is no line.
+//! The first line says what a journal is about; every line has a checksum of itself and of the line before, so that none is
+//! left out, comes twice or passes into another file. A process that is killed leaves at most one line that is cut off, which
+//! is no line.
 
 use crate::hexadecimal::hexadecimal;
 use serde::de::DeserializeOwned;
@@ -37,7 +38,8 @@ pub struct Whole<H, L> {
     pub lines: Vec<L>,
     /// The number of the first line that is damaged, if one is: nothing is taken from there on.
     pub damaged: Option<usize>,
-    first: String,
+    /// What the next line is bound to.
+    last: String,
     length: u64,
 }
 
@@ -45,30 +47,39 @@ pub struct Whole<H, L> {
 #[derive(Debug)]
 pub struct Journal {
     file: File,
-    /// What the checksums of lines are bound to.
-    first: String,
-    /// How much of the file is whole. What is behind is cut off when the next line is written, not before: what is
-    /// refused is left as it is.
-    whole: Option<u64>,
+    /// What the next line is bound to: the first one's text, or the checksum of the line before.
+    last: String,
+    /// How much of the file is whole.
+    length: u64,
+    /// Whether there may be more behind. That is cut off when the next line is written, not before: what is refused is left as
+    /// it is.
+    is_torn: bool,
 }
 
 fn json<T: Serialize>(what: &T) -> String {
     serde_json::to_string(what).expect("strings, numbers and lists have a form in JSON")
 }
 
-fn checksum(first: &str, text: &str) -> String {
+fn checksum(before: &str, text: &str) -> String {
     hexadecimal(
         &Sha256::new()
-            .chain_update(first)
+            .chain_update(before)
             .chain_update(text)
             .finalize(),
     )
 }
 
-/// A line behind the first.
-fn line<L: Serialize>(first: &str, of: &L) -> String {
+/// A line behind another, and what the next one is bound to.
+fn line<L: Serialize>(last: &str, of: &L) -> (String, String) {
     let text = json(of);
-    format!("{} {text}\n", checksum(first, &text))
+    let sum = checksum(last, &text);
+    (
+        format!(
+            "{sum} {text}
+"
+        ),
+        sum,
+    )
 }
 
 impl Kind {
@@ -82,9 +93,14 @@ impl Kind {
 
     /// The bytes of a journal.
     pub fn text<H: Serialize, L: Serialize>(&self, about: &H, lines: &[L]) -> String {
-        let first = self.first(about);
-        let lines = lines.iter().map(|of| line(&first, of));
-        format!("{first} {}\n", checksum("", &first)) + &lines.collect::<String>()
+        let mut last = self.first(about);
+        let mut out = format!("{last} {}\n", checksum("", &last));
+        for of in lines {
+            let (text, sum) = line(&last, of);
+            out += &text;
+            last = sum;
+        }
+        out
     }
 
     /// What is whole in the bytes of a journal; `None` where it was cut off before the end of its first line.
@@ -96,7 +112,7 @@ impl Kind {
         let broken = |what: String| Error::new(ErrorKind::InvalidData, what);
         let begin = format!(r#"{{"krawl":"{}","#, self.name);
         if !bytes.iter().zip(begin.as_bytes()).all(|(a, b)| a == b) {
-            return Err(broken(format!("it is not a {}", self.name)));
+            return Err(broken(format!("it does not hold {}", self.name)));
         }
         let mut rest = bytes.split_inclusive(|&b| b == b'\n');
         let text = |line: &'_ [u8]| String::from_utf8(line.strip_suffix(b"\n")?.to_vec()).ok();
@@ -104,28 +120,31 @@ impl Kind {
         if !bytes[..length].ends_with(b"\n") {
             return Ok(None);
         }
-        let first = text(&bytes[..length]).and_then(|line| {
-            let (first, sum) = line.rsplit_once(' ')?;
-            (checksum("", first) == sum).then(|| first.to_owned())
-        });
         #[derive(Deserialize)]
         struct Format {
             version: u32,
         }
         let damaged = || broken("its first line is damaged".to_owned());
-        let first = first.ok_or_else(damaged)?;
-        let Format { version } = serde_json::from_str(&first).map_err(|_| damaged())?;
+        let line = text(&bytes[..length]).ok_or_else(damaged)?;
+        // Others may have no checksum, or another.
+        let format = serde_json::Deserializer::from_str(&line)
+            .into_iter::<Format>()
+            .next();
+        let Format { version } = format.ok_or_else(damaged)?.map_err(|_| damaged())?;
         if version != self.version {
             return Err(broken(format!(
                 "another version of krawl wrote it, in format {version}; this one has format {}",
                 self.version
             )));
         }
-        let First { about, .. } =
-            serde_json::from_str::<First<H>>(&first).map_err(|_| damaged())?;
+        let (first, sum) = line.rsplit_once(' ').ok_or_else(damaged)?;
+        if checksum("", first) != sum {
+            return Err(damaged());
+        }
+        let First { about, .. } = serde_json::from_str::<First<H>>(first).map_err(|_| damaged())?;
         let mut whole = Whole {
             // What lines were written behind, however the first one is spelled.
-            first: self.first(&about),
+            last: self.first(&about),
             about,
             lines: Vec::new(),
             damaged: None,
@@ -134,14 +153,16 @@ impl Kind {
         for bytes in rest.take_while(|line| line.ends_with(b"\n")) {
             let found = text(bytes).and_then(|line| {
                 let (sum, text) = line.split_once(' ')?;
-                let right = checksum(&whole.first, text) == sum;
-                right.then(|| serde_json::from_str(text).ok())?
+                let right = checksum(&whole.last, text) == sum;
+                let found = right.then(|| serde_json::from_str(text).ok())??;
+                Some((found, sum.to_owned()))
             });
-            let Some(found) = found else {
+            let Some((found, sum)) = found else {
                 whole.damaged = Some(whole.lines.len() + 2);
                 break;
             };
             whole.lines.push(found);
+            whole.last = sum;
             whole.length += bytes.len() as u64;
         }
         Ok(Some(whole))
@@ -166,8 +187,9 @@ impl Kind {
         let known = whole.as_ref();
         let journal = Journal {
             file,
-            first: known.map_or(String::new(), |whole| whole.first.clone()),
-            whole: Some(known.map_or(0, |whole| whole.length)),
+            last: known.map_or(String::new(), |whole| whole.last.clone()),
+            length: known.map_or(0, |whole| whole.length),
+            is_torn: true,
         };
         Ok((journal, whole))
     }
@@ -176,18 +198,17 @@ impl Kind {
 impl Journal {
     /// Begins an empty one.
     pub fn begin<H: Serialize>(&mut self, kind: &Kind, about: &H) -> Result<()> {
-        self.first = kind.first(about);
-        let text = kind.text::<H, ()>(about, &[]);
-        self.append(&text)
+        self.append(&kind.text::<H, ()>(about, &[]), kind.first(about))
     }
 
     /// Adds a line.
     pub fn put<L: Serialize>(&mut self, of: &L) -> Result<()> {
         assert!(
-            !self.first.is_empty(),
+            !self.last.is_empty(),
             "a journal is begun before it is filled"
         );
-        self.append(&line(&self.first, of))
+        let (text, sum) = line(&self.last, of);
+        self.append(&text, sum)
     }
 
     /// Waits until all of it is on the disk.
@@ -195,11 +216,16 @@ impl Journal {
         self.file.sync_data()
     }
 
-    fn append(&mut self, text: &str) -> Result<()> {
-        if let Some(length) = self.whole.take() {
-            self.file.set_len(length)?;
-            self.file.seek(SeekFrom::Start(length))?;
+    fn append(&mut self, text: &str, last: String) -> Result<()> {
+        if self.is_torn {
+            self.file.set_len(self.length)?;
+            self.file.seek(SeekFrom::Start(self.length))?;
         }
-        self.file.write_all(text.as_bytes())
+        // A line may be cut off where the disk is full.
+        self.is_torn = true;
+        self.file.write_all(text.as_bytes())?;
+        (self.is_torn, self.last) = (false, last);
+        self.length += text.len() as u64;
+        Ok(())
     }
 }

@@ -42,6 +42,8 @@ struct Entry {
     cell: (String, Range<usize>),
     /// Whether it has another text than in the file.
     is_set: bool,
+    /// Whether it can be a whole number only.
+    is_whole: bool,
 }
 
 #[derive(Debug, Clone)]
@@ -95,15 +97,6 @@ fn unit_of(kind: &str) -> Option<Quantity> {
     }
 }
 
-/// A variable's new number, in the form that it has in the file. `None`: there it is whole, and this is not.
-fn written(before: &str, number: f64) -> Option<String> {
-    match (before.parse::<i64>().is_ok(), number.fract() == 0.0) {
-        (true, false) => None,
-        (true, true) => Some(number.to_string()),
-        (false, _) => Some(format!("{number:.16}")),
-    }
-}
-
 /// The number of a constraint.
 fn dimension(node: Node) -> Content {
     let value = number(node, "Value");
@@ -114,6 +107,23 @@ fn dimension(node: Node) -> Content {
         6 | 7 | 8 | 11 | 18 => Content::Given(Quantity::length(value)),
         9 => Content::Given(Quantity::angle(degrees(value))),
         _ => Content::Other("is neither a length nor an angle"),
+    }
+}
+
+impl Entry {
+    /// A variable's new number as the file has it.
+    fn written(&self, number: f64) -> String {
+        match self.is_whole {
+            true => format!("{number:.0}"),
+            false => format!("{number:.16}"),
+        }
+    }
+
+    /// Why a number cannot be its.
+    fn refuses(&self, number: f64) -> Option<&'static str> {
+        // FreeCAD has 64 bits for them.
+        let is_whole = number.fract() == 0.0 && number.abs() < 9e18;
+        (self.is_whole && !is_whole).then_some("is a whole number in the file")
     }
 }
 
@@ -197,6 +207,7 @@ impl Numbers {
             content,
             cell,
             is_set: false,
+            is_whole: node.attribute("type") == Some("App::PropertyInteger"),
         });
     }
 
@@ -290,11 +301,13 @@ impl Numbers {
             )),
             (_, None) => Err(format!("{name}: `{value}` is no number")),
             (Content::Other(_), _) => Err(format!("{name} is no number in the file")),
+            (Content::Given(_), _) if entry.is_set => Err(format!("{name} is set twice")),
             (Content::Given(unit), Some(number)) if kind == Kind::Variables => {
                 let number = number.to_f64();
-                let text = written(&entry.cell.0, number);
-                let text = text.ok_or_else(|| format!("{name} is a whole number in the file"));
-                text.map(|text| (Content::Given(unit.with(number)), text))
+                match entry.refuses(number) {
+                    Some(why) => Err(format!("{name} {why}")),
+                    None => Ok((Content::Given(unit.with(number)), entry.written(number))),
+                }
             }
             (_, Some(number)) => {
                 let text = format!("={number} {}", cell(&entry.cell.0).1);
@@ -375,8 +388,8 @@ impl<'a> Evaluation<'a> {
                 return None;
             };
             let value = self.value(index).0.ok()?.value;
-            let text = || written(&entry.cell.0, value);
-            (!is_same(value, said.value)).then(|| Some((text()?, entry.cell.1.clone())))?
+            let text = || (entry.written(value), entry.cell.1.clone());
+            (!is_same(value, said.value)).then(text)
         });
         changed.collect()
     }
@@ -437,6 +450,9 @@ impl<'a> Evaluation<'a> {
             return value;
         };
         let value = value?.like(said)?;
+        if let Some(why) = of.refuses(value.value) {
+            return Err(format!("{} {why}, and {value} by it", shown()));
+        }
         match fault.is_some() || is_same(value.value, said.value) {
             true => Ok(value),
             false => Err(format!(

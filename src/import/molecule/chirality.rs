@@ -12,11 +12,13 @@ const PYRAMID: f64 = 0.3;
 /// The stereocentres of a molecule, each with three of its neighbours, and whether these are drawn so that det(b − a, c − a, d − a) is
 /// greater than 0. An atom is one if it is drawn as a pyramid and whatever is bonded to it is different: other elements, or others
 /// further along the bonds. Of three neighbours that is so for elements that keep their side: those of carbon's group, which have a
-/// hydrogen that is not in the file, and those below nitrogen and oxygen, which have a pair of electrons.
+/// hydrogen that is not in the file, and those below nitrogen and oxygen, which have a pair of electrons. It is by neighbours that are told
+/// that the side is.
 pub fn stereocentres(
     symbols: &[&str],
     places: &[[f64; 3]],
     bonds: &[[usize; 2]],
+    is_told: impl Fn(&usize) -> bool,
 ) -> Vec<([usize; 4], bool)> {
     let near = neighbours(symbols.len(), bonds);
     let near: Vec<Vec<usize>> = near.into_iter().map(Vec::from_iter).collect();
@@ -36,8 +38,9 @@ pub fn stereocentres(
         is_kept && around.iter().enumerate().all(differ)
     };
     let all = (0..symbols.len()).filter(is_one);
-    let signed = all.filter_map(|a| {
-        let points = [a, near[a][0], near[a][1], near[a][2]];
+    let signed = all.filter(&is_told).filter_map(|a| {
+        let mut told = near[a].iter().copied().filter(&is_told);
+        let points = [a, told.next()?, told.next()?, told.next()?];
         let [u, v, w] = [1, 2, 3].map(|k| {
             let bond = minus(places[points[k]], places[a]);
             bond.map(|x| x / length(bond))

@@ -22,7 +22,8 @@ mod skeleton;
 
 use super::{Figure, Format, Imported, Listed, Places as AllPlaces};
 use crate::complete::{Spare, Surplus};
-use crate::problem::{Decimal, Distance, Orientation, Problem, Target};
+use crate::interval::vector::{length, minus};
+use crate::problem::{Decimal, Distance, Orientation, Problem, Target, counted};
 use chirality::stereocentres;
 use hold::{Held, hold};
 use hydrogens::Hydrogens;
@@ -53,38 +54,6 @@ struct Molecule<'a> {
     bonds: Option<Vec<[usize; 2]>>,
     /// See [`Imported::notes`].
     notes: Vec<String>,
-}
-
-impl Molecule<'_> {
-    /// Leaves its hydrogens out, of the places and the numbers of its atoms as well.
-    fn leave_hydrogens(
-        &mut self,
-        places: &mut Vec<[f64; 3]>,
-        numbers: &mut Vec<usize>,
-    ) -> Hydrogens {
-        let is_one: Vec<bool> = self
-            .atoms
-            .iter()
-            .map(|atom| element(atom.0) == "H")
-            .collect();
-        let all = (0..places.len()).filter(|&a| is_one[a]);
-        let all: Vec<(usize, [f64; 3])> = all.map(|a| (self.atoms[a].2, places[a])).collect();
-        if !all.is_empty() {
-            self.notes
-                .push(format!("without its hydrogens ({})", all.len()));
-        }
-        let stays = |a: &usize| !is_one[*a];
-        let kept: Vec<usize> = (0..places.len()).filter(stays).collect();
-        self.atoms = kept.iter().map(|&a| self.atoms[a]).collect();
-        *places = kept.iter().map(|&a| places[a]).collect();
-        *numbers = kept.iter().map(|&a| numbers[a]).collect();
-        if let Some(bonds) = &mut self.bonds {
-            bonds.retain(|ends| ends.iter().all(stays));
-            let new = |a: usize| kept.partition_point(|&b| b < a);
-            bonds.iter_mut().for_each(|ends| *ends = ends.map(new));
-        }
-        Hydrogens::new(all, places.clone())
-    }
 }
 
 /// The text of a file. Comments that are no UTF-8 are taken for Latin-1; so the second is whether they were.
@@ -333,21 +302,19 @@ pub fn read(
         }
         places.push(place);
     }
-    let mut numbers: Vec<usize> = (1..=places.len()).collect();
-    let hydrogens = match heavy {
-        true => molecule.leave_hydrogens(&mut places, &mut numbers),
-        false => Hydrogens::default(),
-    };
-    let n = molecule.atoms.len();
-    if !(3..=MOST_ATOMS).contains(&n) {
-        let what = if heavy {
-            "atoms but hydrogens"
-        } else {
-            "atoms"
+    let all = places.len();
+    let stays = |a: &usize| !heavy || element(molecule.atoms[*a].0) != "H";
+    let kept: Vec<usize> = (0..all).filter(stays).collect();
+    let n = kept.len();
+    if !(3..=MOST_ATOMS).contains(&n) || all > 10 * MOST_ATOMS {
+        let besides = match all - n {
+            0 => String::new(),
+            hydrogens => format!(" and {}", counted(hydrogens, "hydrogen")),
         };
         return Err(format!(
-            "{} has {n} {what}; 3 to {MOST_ATOMS} are read",
-            molecule.name
+            "{} has {}{besides}; 3 to {MOST_ATOMS} atoms are read",
+            molecule.name,
+            counted(n, "atom")
         ));
     }
     let apart = |a: usize, b: usize| -> f64 {
@@ -357,7 +324,7 @@ pub fn read(
     let bonds = match molecule.bonds {
         Some(bonds) => bonds,
         None => {
-            let mut radii = Vec::with_capacity(n);
+            let mut radii = Vec::with_capacity(all);
             for (atom, _, line) in &molecule.atoms {
                 let radius = radius(element(atom));
                 radii.push(radius.ok_or_else(|| {
@@ -367,31 +334,51 @@ pub fn read(
                     )
                 })?);
             }
-            let pairs = (0..n).flat_map(|b| (0..b).map(move |a| [a, b]));
+            let pairs = (0..all).flat_map(|b| (0..b).map(move |a| [a, b]));
             pairs
                 .filter(|&[a, b]| apart(a, b) <= radii[a] + radii[b] + 0.45)
                 .collect()
         }
     };
-    if let Some((a, b)) = (0..n)
+    if let Some((a, b)) = (0..all)
         .flat_map(|b| (0..b).map(move |a| (a, b)))
         .find(|&(a, b)| apart(a, b) < 1e-3)
     {
-        return Err(format!(
-            "atoms {} and {} are in one place",
-            numbers[a], numbers[b]
-        ));
+        return Err(format!("atoms {} and {} are in one place", a + 1, b + 1));
     }
+    let symbols: Vec<&str> = molecule.atoms.iter().map(|atom| atom.0).collect();
+    // Hydrogens that are left out tell sides as well.
+    let signed = stereocentres(&symbols, &places, &bonds, stays);
+    let new = |a: usize| kept.partition_point(|&b| b < a);
+    let orientations = signed.into_iter().map(|(points, is_positive)| Orientation {
+        points: points.map(new).to_vec(),
+        is_positive,
+    });
+    let orientations = orientations.collect();
+    let left = (0..all).filter(|a| !stays(a));
+    let left: Vec<_> = left.map(|a| (molecule.atoms[a].2, places[a])).collect();
+    if !left.is_empty() {
+        molecule
+            .notes
+            .push(format!("without its hydrogens ({})", left.len()));
+    }
+    let bonds = bonds.into_iter().filter(|ends| ends.iter().all(stays));
+    let bonds: Vec<[usize; 2]> = bonds.map(|ends| ends.map(new)).collect();
+    let names: Vec<String> = kept
+        .iter()
+        .map(|&a| format!("{}{}", element(symbols[a]), a + 1))
+        .collect();
+    let atoms: Vec<_> = kept.iter().map(|&a| molecule.atoms[a]).collect();
+    let places: Vec<[f64; 3]> = kept.iter().map(|&a| places[a]).collect();
+    let hydrogens = Hydrogens::new(left, &places, &bonds);
+    let apart = |a: usize, b: usize| length(minus(places[a], places[b]));
     let (held, told) = hold(&places, &bonds).ok_or_else(|| {
         format!(
             "{} cannot be held by distances: are all its atoms on one line?",
             molecule.name
         )
     })?;
-    let names: Vec<String> = (0..n)
-        .map(|k| format!("{}{}", element(molecule.atoms[k].0), numbers[k]))
-        .collect();
-    let length = |[a, b]: [usize; 2]| format!("{:.6}", apart(a, b));
+    let written = |[a, b]: [usize; 2]| format!("{:.6}", apart(a, b));
     let reading = Reading::new(&held, &told, &names);
     let notes = molecule.notes.iter().map(|note| format!(", {note}"));
     let source = reading.in_words() + &notes.collect::<String>();
@@ -406,7 +393,7 @@ pub fn read(
             |points: &[usize]| -> Vec<&str> { points.iter().map(|&p| names[p].as_str()).collect() };
         builder = match one {
             Held::Distance([a, b]) => {
-                builder.distance(&names[a], &names[b], length([a, b]).as_str())
+                builder.distance(&names[a], &names[b], written([a, b]).as_str())
             }
             Held::Straight(points) => builder.constraint("collinear", of(&points)),
             Held::Flat(points) => builder.constraint("coplanar", of(&points)),
@@ -416,18 +403,12 @@ pub fn read(
     if let Some(bend) = bend(&problem) {
         problem.homotopy.bend = bend;
     }
-    let symbols: Vec<&str> = molecule.atoms.iter().map(|atom| atom.0).collect();
-    let signed = stereocentres(&symbols, &places, &bonds).into_iter();
-    problem.orientations = signed
-        .map(|(points, is_positive)| Orientation {
-            points: points.to_vec(),
-            is_positive,
-        })
-        .collect();
-    let texts = molecule.atoms.iter().flat_map(|atom| atom.1);
+    problem.orientations = orientations;
+    let symbols: Vec<&str> = atoms.iter().map(|atom| atom.0).collect();
+    let texts = atoms.iter().flat_map(|atom| atom.1);
     let epsilon = tolerance(texts);
     let spare = reading.left_out.iter().map(|&[a, b]| {
-        let length: Decimal = length([a, b]).parse().map_err(|e| format!("{e:?}"))?;
+        let length: Decimal = written([a, b]).parse().map_err(|e| format!("{e:?}"))?;
         Ok(Spare {
             name: format!("{}-{}", names[a], names[b]),
             distance: Distance {
@@ -451,7 +432,7 @@ pub fn read(
         skeleton: Some(Skeleton::new(&symbols, &places, &bonds)),
         places: AllPlaces::Molecule(Places {
             format,
-            lines: molecule.atoms.iter().map(|atom| atom.2).collect(),
+            lines: atoms.iter().map(|atom| atom.2).collect(),
             hydrogens,
         }),
         sources: Vec::new(),

@@ -18,7 +18,7 @@ const NAME: &str = "parts.krawl-all";
 /// Its format is that of the file, and of what its parts rest on: to be raised with every change of what a search proves,
 /// as parts that were done before are believed.
 const KIND: Kind = Kind {
-    name: "store of parts of a search for all solutions",
+    name: "parts of a search for all solutions",
     version: 12,
 };
 
