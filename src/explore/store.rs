@@ -11,7 +11,7 @@ use std::io::{Error, ErrorKind};
 use std::path::{Path, PathBuf};
 
 const KIND: Kind = Kind {
-    name: "a store of krawl explore",
+    name: "store of krawl explore",
     version: 2,
 };
 

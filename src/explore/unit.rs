@@ -17,11 +17,11 @@ use std::path::Path;
 use std::sync::Mutex;
 
 const UNIT: Kind = Kind {
-    name: "a work unit",
+    name: "work unit",
     version: 2,
 };
 const RESULT: Kind = Kind {
-    name: "a work result",
+    name: "work result",
     version: 2,
 };
 
@@ -171,7 +171,7 @@ pub fn read_result(text: &str, problem: &str) -> Result<Vec<PathRecord>, String>
 
 fn whole<L: DeserializeOwned>(kind: &Kind, text: &str) -> Result<Whole<About, L>, String> {
     let read = kind.read(text.as_bytes()).map_err(|e| e.to_string())?;
-    undamaged(read.ok_or_else(|| format!("it is empty, and not {}", kind.name))?)
+    undamaged(read.ok_or_else(|| format!("it is empty, and no {} of krawl", kind.name))?)
 }
 
 fn undamaged<L>(whole: Whole<About, L>) -> Result<Whole<About, L>, String> {

@@ -15,7 +15,7 @@ use std::path::Path;
 /// What journals of a kind begin with.
 #[derive(Debug, Clone, Copy)]
 pub struct Kind {
-    /// What such a file is called.
+    /// What such a file says that it is.
     pub name: &'static str,
     /// The format of what is in it.
     pub version: u32,
@@ -61,25 +61,15 @@ fn json<T: Serialize>(what: &T) -> String {
 }
 
 fn checksum(before: &str, text: &str) -> String {
-    hexadecimal(
-        &Sha256::new()
-            .chain_update(before)
-            .chain_update(text)
-            .finalize(),
-    )
+    let digest = Sha256::new().chain_update(before).chain_update(text);
+    hexadecimal(&digest.finalize())
 }
 
 /// A line behind another, and what the next one is bound to.
 fn line<L: Serialize>(last: &str, of: &L) -> (String, String) {
     let text = json(of);
     let sum = checksum(last, &text);
-    (
-        format!(
-            "{sum} {text}
-"
-        ),
-        sum,
-    )
+    (format!("{sum} {text}\n"), sum)
 }
 
 impl Kind {
@@ -112,7 +102,8 @@ impl Kind {
         let broken = |what: String| Error::new(ErrorKind::InvalidData, what);
         let begin = format!(r#"{{"krawl":"{}","#, self.name);
         if !bytes.iter().zip(begin.as_bytes()).all(|(a, b)| a == b) {
-            return Err(broken(format!("it does not hold {}", self.name)));
+            let what = format!("it does not begin as `{}` of krawl does", self.name);
+            return Err(broken(what));
         }
         let mut rest = bytes.split_inclusive(|&b| b == b'\n');
         let text = |line: &'_ [u8]| String::from_utf8(line.strip_suffix(b"\n")?.to_vec()).ok();
