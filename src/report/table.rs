@@ -5,6 +5,7 @@ use super::columns::{DIGITS, write_points, written};
 use super::complete::{signs_in_words, tested_in_words};
 use super::document::names;
 use super::marks::Marks;
+use super::tolerance::rounded_at;
 use crate::complete::Tested;
 use crate::constraint::{Symmetry, symmetry};
 use crate::interval::{Interval, hull};
@@ -602,7 +603,12 @@ fn numbers(outcome: &Outcome) -> Vec<(&'static str, String)> {
         rows.push(("driving parameters", text));
     }
     rows.push(("length of the path", format!("{:.4}", outcome.length)));
-    rows.push(("range of t", format!("{lo:.6} to {hi:.6}")));
+    // All of the path is between these.
+    let [lo, hi] = [
+        rounded_at(lo, 6.0, f64::floor),
+        rounded_at(hi, 6.0, f64::ceil),
+    ];
+    rows.push(("range of t", format!("{lo} to {hi}")));
     rows.push(("seconds", format!("{:.4}", outcome.seconds)));
     for (index, text) in outcome.switched_on.iter().enumerate() {
         rows.push((if index == 0 { "switched on" } else { "" }, text.clone()));

@@ -3,6 +3,7 @@
 use super::reader::{Reader, choices, nothing};
 use super::{Figure, Page, ShowError, Text, Tone, path};
 use crate::report::document::{Blocks, Solution, Solve, Verb};
+use crate::report::tolerance::rounded_at;
 
 pub(super) fn page(reader: &Reader, run: &Solve) -> Result<Page, ShowError> {
     let mut page = reader.page("Sketch", "where the path begins, t = 0")?;
@@ -133,7 +134,7 @@ fn solution(reader: &Reader, k: usize, solution: &Solution) -> Result<Figure, Sh
 fn rows(reader: &Reader, run: &Solve) -> Vec<(String, String)> {
     let mut rows = Vec::new();
     let mut row = |label: &str, value: String| rows.push((label.to_owned(), value));
-    let rounded = |x: Option<f64>| match x.filter(|x| x.is_finite()) {
+    let shown = |x: Option<f64>| match x.filter(|x| x.is_finite()) {
         Some(x) => format!("{x:.6}"),
         None => "?".to_owned(),
     };
@@ -142,10 +143,15 @@ fn rows(reader: &Reader, run: &Solve) -> Vec<(String, String)> {
         "steps, rejected",
         format!("{}, {}", run.steps, run.rejected),
     );
-    row("length of the path", rounded(run.length));
-    let [low, high] = run.t_range.map(rounded);
+    row("length of the path", shown(run.length));
+    let known = |x: Option<f64>, to: fn(f64) -> f64| match x.filter(|x| x.is_finite()) {
+        Some(x) => rounded_at(x, 6.0, to),
+        None => "?".to_owned(),
+    };
+    let [low, high] = run.t_range;
+    let (low, high) = (known(low, f64::floor), known(high, f64::ceil));
     row("range of t", format!("{low} to {high}"));
-    row("seconds", rounded(Some(run.seconds)));
+    row("seconds", shown(Some(run.seconds)));
     if let Some(bend) = &run.options.bend {
         let c = &run.options.bend_coefficient;
         row("bend", format!("{}, c = {c}", bend.join("-")));
