@@ -4,11 +4,10 @@ use super::certain_digits;
 use super::columns::{self, DIGITS, written};
 use super::document::{Named, names};
 use super::table::write_joints;
-use super::tolerance::rounded;
 use crate::blocks::{Account, Why, rounded_up};
 use crate::edit::{Alone, Decomposition, Dimension, Dragged, Edited, Ending, Limit, Moved};
-use crate::interval::Interval;
 use crate::interval::vector::length;
+use crate::interval::{Bound, Interval};
 use crate::order::InOrder;
 use crate::problem::{Object, Problem, Shape, counted, either, list};
 use crate::system::Located;
@@ -122,11 +121,11 @@ pub fn edit_in_words(problem: &Problem, edited: &Edited) -> String {
         Ending::Passes(reason) => format!(
             "Passes: near t = {} of the way ({changes}) branches of figures seem to meet, so that none of \
                  them continues this one more than another; proved up to there{clause} ({reason}).{far}",
-            rounded(edited.t.0, f64::floor)
+            Bound::Lower.short(edited.t.0)
         ),
         Ending::Stopped(reason) => format!(
             "Stopped: proved up to t = {} of the way ({changes}){clause}, and not further: {reason}.{far}",
-            rounded(edited.t.0, f64::floor)
+            Bound::Lower.short(edited.t.0)
         ),
     }
 }
@@ -310,8 +309,8 @@ fn write_edit(
         writeln!(
             out,
             "  not kept          {names}: up to t = {}, not from there to {}: {end}",
-            rounded(lo, f64::floor),
-            rounded(hi, f64::ceil)
+            Bound::Lower.short(lo),
+            Bound::Upper.short(hi)
         )?;
     }
     if orientations.lost.len() > LISTED {

@@ -5,10 +5,9 @@ use super::columns::Grid;
 use super::document::names;
 use super::measured::Measures;
 use super::sweep::frames_to_csv;
-use super::tolerance::rounded;
 use crate::blocks::rounded_up;
 use crate::edit::WayEnd;
-use crate::interval::{Interval, point};
+use crate::interval::{Bound, Interval, point};
 use crate::motion::{Bounds, Measured, Motion};
 use crate::problem::counted;
 use std::fmt::Write;
@@ -67,30 +66,33 @@ pub fn motion_to_table(motion: &Motion) -> String {
         return out;
     }
     let mut grid = Grid::new([heading, "at first", "least", "greatest"], |_| true);
-    let mut is_sharp = true;
     for measured in &motion.measured {
-        let cells = cells(measured);
-        let mut ends = cells[2..].iter();
-        is_sharp &= ends.all(|end| !end.starts_with(AT_LEAST) && !end.starts_with(AT_MOST));
-        grid.push(cells);
+        grid.push(cells(measured));
     }
     out += "\n";
     out += &grid.render();
-    let _ = writeln!(
-        out,
-        "\nNo figure of the way is beyond these values, and figures come as near to each{} as its digits tell, proved{}; they differ from the exact ones by at most 1 in the \
-         last digit shown. Angles are in degrees.",
-        if is_sharp {
-            ""
-        } else {
-            " but those at least or at most so great"
-        },
-        if motion.is_loop() {
-            ""
-        } else {
-            ", as far as it was followed"
-        }
-    );
+    let followed = match motion.is_loop() {
+        true => "",
+        false => ", as far as it was followed",
+    };
+    let all_are_sharp = motion
+        .measured
+        .iter()
+        .all(|measured| match &measured.bounds {
+            Bounds::Between { least, most } => is_sharp(least.value) && is_sharp(most.value),
+            _ => true,
+        });
+    out += &match all_are_sharp {
+        true => format!(
+            "\nNo figure of the way is beyond these values, and figures come as near to each as its digits tell, proved{followed}; they differ \
+             from the exact ones by at most 1 in the last digit shown. Angles are in degrees.\n"
+        ),
+        false => format!(
+            "\nNo figure of the way is beyond these values, proved{followed}. Where it says at least or at most, figures may come less near to \
+             the value; to all others they come as near as the digits tell, and these differ from the exact values by at most 1 in the last \
+             digit shown. Angles are in degrees.\n"
+        ),
+    };
     out
 }
 
@@ -98,12 +100,8 @@ fn cells(measured: &Measured) -> [String; 4] {
     let first = certain_digits(measured.first);
     let [least, most] = match &measured.bounds {
         Bounds::Between { least, most } => [
-            end_of(
-                least.value,
-                AT_LEAST,
-                rounded(least.value.inf(), f64::floor),
-            ),
-            end_of(most.value, AT_MOST, rounded(most.value.sup(), f64::ceil)),
+            end_of(least.value, "at least", Bound::Lower),
+            end_of(most.value, "at most", Bound::Upper),
         ],
         Bounds::AllTheWay(turns) => {
             let rounds = match turns {
@@ -120,14 +118,16 @@ fn cells(measured: &Measured) -> [String; 4] {
     [measured.name.clone(), first, least, most]
 }
 
-const AT_LEAST: &str = "at least";
-const AT_MOST: &str = "at most";
+/// Whether a bound is known well enough to be told by its certain digits.
+fn is_sharp(value: Interval) -> bool {
+    value.wid() <= 1e-4 * value.mag().max(1.0)
+}
 
 /// A bound by its certain digits, or by its outer end where few are certain.
-fn end_of(value: Interval, word: &str, outer: String) -> String {
-    match value.wid() <= 1e-4 * value.mag().max(1.0) {
+fn end_of(value: Interval, word: &str, outer: Bound) -> String {
+    match is_sharp(value) {
         true => certain_digits(value),
-        false => format!("{word} {outer}"),
+        false => format!("{word} {}", outer.short(outer.end(value))),
     }
 }
 

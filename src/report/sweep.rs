@@ -4,9 +4,8 @@ use super::certain_digits;
 use super::columns::{Grid, written};
 use super::edit::{behind, edit_in_words, limit_in_words, short, write_moved};
 use super::measured::{Measures, Placed};
-use super::tolerance::rounded_at;
 use crate::edit::{Edited, End, Ending, Moved, Range, Sweep};
-use crate::interval::Interval;
+use crate::interval::{Bound, Interval};
 use crate::problem::Problem;
 use std::fmt::Write;
 
@@ -44,8 +43,8 @@ fn write_ranges(
         grid.push([
             problem.dimension_name(range.index),
             short(range.value),
-            value_of(&range.low, "≤", f64::ceil),
-            value_of(&range.high, "≥", f64::floor),
+            value_of(&range.low, "≤", Bound::Upper),
+            value_of(&range.high, "≥", Bound::Lower),
         ]);
     }
     *out += &grid.render();
@@ -69,8 +68,8 @@ fn write_ranges(
     )?;
     for range in ranges {
         let ends = [
-            (&range.low, "shrinks to", f64::ceil as fn(f64) -> f64),
-            (&range.high, "grows to", f64::floor),
+            (&range.low, "shrinks to", Bound::Upper),
+            (&range.high, "grows to", Bound::Lower),
         ];
         for (end, verb, back) in ends {
             let name = problem.dimension_name(range.index);
@@ -92,7 +91,7 @@ fn write_ranges(
     Ok(())
 }
 
-fn value_of(end: &End, beyond: &str, back: fn(f64) -> f64) -> String {
+fn value_of(end: &End, beyond: &str, back: Bound) -> String {
     match end {
         End::Limit(value, _) => certain_digits(*value),
         End::Beyond(value) => format!("{beyond} {}", short(*value)),
@@ -100,15 +99,12 @@ fn value_of(end: &End, beyond: &str, back: fn(f64) -> f64) -> String {
     }
 }
 
-/// Up to where something is proved that is proved up to somewhere in an interval, with the digits that are certain: `back` rounds to where it
-/// comes from.
-pub(super) fn not_beyond(value: Interval, back: fn(f64) -> f64) -> String {
-    let end = match back(0.5) > 0.5 {
-        true => value.sup(),
-        false => value.inf(),
-    };
+/// Up to where something is proved that is proved up to somewhere in an interval, with the digits that are certain: the bound on the side
+/// that it comes from.
+pub(super) fn not_beyond(value: Interval, back: Bound) -> String {
     let known = value.wid().max(1e-15 * value.mag());
-    let text = rounded_at(end, -known.log10().floor(), back);
+    let decimals = -known.log10().floor();
+    let text = back.decimals(back.end(value), decimals.clamp(0.0, 15.0) as usize);
     match text.contains('.') {
         true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
         false => text,

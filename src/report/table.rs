@@ -5,10 +5,9 @@ use super::columns::{DIGITS, write_points, written};
 use super::complete::{signs_in_words, tested_in_words};
 use super::document::names;
 use super::marks::Marks;
-use super::tolerance::rounded_at;
 use crate::complete::Tested;
 use crate::constraint::{Symmetry, symmetry};
-use crate::interval::{Interval, hull};
+use crate::interval::{Bound, Interval, hull};
 use crate::order::each_once;
 use crate::problem::{Problem, Shape, counted, either, list};
 use crate::remarks::moves;
@@ -604,10 +603,7 @@ fn numbers(outcome: &Outcome) -> Vec<(&'static str, String)> {
     }
     rows.push(("length of the path", format!("{:.4}", outcome.length)));
     // All of the path is between these.
-    let [lo, hi] = [
-        rounded_at(lo, 6.0, f64::floor),
-        rounded_at(hi, 6.0, f64::ceil),
-    ];
+    let (lo, hi) = (Bound::Lower.decimals(lo, 6), Bound::Upper.decimals(hi, 6));
     rows.push(("range of t", format!("{lo} to {hi}")));
     rows.push(("seconds", format!("{:.4}", outcome.seconds)));
     for (index, text) in outcome.switched_on.iter().enumerate() {

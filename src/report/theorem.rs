@@ -2,10 +2,9 @@
 
 use super::certain_digits;
 use super::columns::written;
-use super::tolerance::rounded_at;
 use crate::certificate::{Outcome, Verdict};
 use crate::constraint::{Symmetry, symmetry};
-use crate::interval::{Interval, point};
+use crate::interval::{Bound, Interval, point};
 use crate::problem::{Problem, counted};
 use std::fmt::Write;
 use std::time::Duration;
@@ -19,8 +18,8 @@ fn write_theorem(out: &mut String, verdict: &Verdict, time: Duration) -> std::fm
     let name = &verdict.problem.name;
     let (low, high) = verdict.t_range;
     let (from, to) = (
-        rounded_at(low, 6.0, f64::floor),
-        rounded_at(high, 6.0, f64::ceil),
+        Bound::Lower.decimals(low, 6),
+        Bound::Upper.decimals(high, 6),
     );
     match &verdict.outcome {
         Outcome::Verified if !verdict.arcs.is_empty() => write_edits(out, verdict)?,

@@ -5,6 +5,7 @@ use super::complete::{both_ways_in_words, counted_once, why};
 use super::sweep::quoted;
 use crate::complete::Why;
 use crate::edit::Limits;
+use crate::interval::{Bound, point};
 use crate::order::InOrder;
 use crate::problem::{Problem, counted, either};
 use crate::tolerance::{Measured, Set, Study};
@@ -131,10 +132,10 @@ fn write_measured(
         );
     }
     let ends = [
-        rounded(low.inf(), f64::floor),
-        rounded(high.sup(), f64::ceil),
+        Bound::Lower.short(low.inf()),
+        Bound::Upper.short(high.sup()),
     ];
-    let gap = measured.gap(ends.each_ref().map(|end| end.parse().unwrap_or(f64::NAN)));
+    let gap = measured.gap(&ends);
     writeln!(
         out,
         "\n{} is {digits}; at worst from {} to {}{}; {}",
@@ -144,7 +145,7 @@ fn write_measured(
         match measured.is_attained {
             [true, true] if gap < 1.0 => format!(
                 ", and no wider by more than {:.0} % of that",
-                (100.0 * gap).ceil().max(1.0)
+                (point(100.0) * point(gap)).sup().ceil().max(1.0)
             ),
             [true, true] => String::new(),
             _ => ", which may be too wide: the corners were not reached".to_owned(),
@@ -195,28 +196,6 @@ pub(super) fn squares_in_words(measured: Option<f64>) -> String {
 pub(super) fn short(x: f64) -> String {
     let shown = format!("{x:.3e}").parse().unwrap_or(x);
     f64::to_string(&shown)
-}
-
-/// A bound with some digits, rounded away from what it bounds.
-pub(super) fn rounded(x: f64, to: impl Fn(f64) -> f64) -> String {
-    let size = x.abs().log10().floor();
-    rounded_at(x, if size.is_finite() { 5.0 - size } else { 6.0 }, to)
-}
-
-/// A bound with so many digits behind the point, at most 15, likewise.
-pub(super) fn rounded_at(x: f64, places: f64, to: impl Fn(f64) -> f64) -> String {
-    let places = places.clamp(0.0, 15.0);
-    let scale = 10f64.powf(places);
-    let mut shown = to(x * scale) / scale;
-    // The product is rounded.
-    let step = 1.0 / scale;
-    if to(0.5) > 0.5 && shown < x {
-        shown += step;
-    } else if to(0.5) < 0.5 && shown > x {
-        shown -= step;
-    }
-    // Not −0.
-    format!("{:.*}", places as usize, shown + 0.0)
 }
 
 /// The study as CSV: for each measure its value, its worst cases (outer ends, as floats), the root of the sum of the squares, and by how much

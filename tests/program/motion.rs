@@ -127,9 +127,7 @@ fn what_is_reached_by_no_figure_is_not_said_to_be() {
     let (_, text, error) = krawl(&["motion", file, "--measure", "angle B D A"]);
     assert!(text.contains("at most 180.0"), "{text}{error}");
     assert!(
-        text.contains(
-            "come as near to each but those at least or at most so great as its digits tell, proved"
-        ),
+        text.contains("Where it says at least or at most, figures may come less near to the value"),
         "{text}"
     );
     let (_, text, error) = krawl(&["motion", file, "--measure", "B-D"]);

@@ -78,7 +78,7 @@ keys! {
         attained: [bool; 2] = measured.is_attained,
         /// The root of the sum of the squares of half the effects; null where there is no first order.
         root_of_squares: Option<f64> = measured.root_of_squares,
-        /// What each dimension does alone, to first order.
+        /// What each dimension does alone, to first order; empty where there is none.
         effects: Vec<f64> = measured.effects.clone(),
     }
 }

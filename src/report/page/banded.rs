@@ -2,9 +2,10 @@
 
 use super::reader::{Reader, digits, middle, nothing};
 use super::{Figure, Page, Shape, ShowError, Text, Tone};
+use crate::interval::Bound;
 use crate::order::InOrder;
 use crate::report::document::{Bounds, Tolerance};
-use crate::report::tolerance::{rounded, squares_in_words};
+use crate::report::tolerance::squares_in_words;
 
 /// The widest band is drawn about so wide, as a part of the figure.
 const SEEN: f64 = 0.15;
@@ -68,8 +69,8 @@ pub(super) fn page(reader: &Reader, study: &Tolerance) -> Result<Page, ShowError
             format!(
                 "{}; at worst from {} to {}; {}",
                 digits(measured.nominal),
-                rounded(measured.least[0], f64::floor),
-                rounded(measured.greatest[1], f64::ceil),
+                Bound::Lower.short(measured.least[0]),
+                Bound::Upper.short(measured.greatest[1]),
                 squares_in_words(measured.root_of_squares)
             ),
         ));

@@ -3,7 +3,7 @@
 use super::reader::{Reader, are_bounds, digits, middle, nothing};
 use super::{Figure, Page, ShowError, Text, Tone};
 use crate::blocks::rounded_up;
-use crate::interval::hull;
+use crate::interval::{Bound, hull};
 use crate::order::InOrder;
 use crate::report::document::{Limits, RangeOf, wrong};
 use crate::report::sweep::not_beyond;
@@ -33,8 +33,8 @@ pub(super) fn page(reader: &Reader, limits: &Limits) -> Result<Page, ShowError> 
     for (name, range) in ranges {
         let mut values = Vec::new();
         let ends = [
-            (&range.low, "least", f64::ceil as fn(f64) -> f64),
-            (&range.high, "largest", f64::floor),
+            (&range.low, "least", Bound::Upper),
+            (&range.high, "largest", Bound::Lower),
         ];
         for (end, which, back) in ends {
             let value = end.value;

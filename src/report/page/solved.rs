@@ -2,8 +2,8 @@
 
 use super::reader::{Reader, choices, nothing};
 use super::{Figure, Page, ShowError, Text, Tone, path};
+use crate::interval::Bound;
 use crate::report::document::{Blocks, Solution, Solve, Verb};
-use crate::report::tolerance::rounded_at;
 
 pub(super) fn page(reader: &Reader, run: &Solve) -> Result<Page, ShowError> {
     let mut page = reader.page("Sketch", "where the path begins, t = 0")?;
@@ -144,12 +144,12 @@ fn rows(reader: &Reader, run: &Solve) -> Vec<(String, String)> {
         format!("{}, {}", run.steps, run.rejected),
     );
     row("length of the path", shown(run.length));
-    let known = |x: Option<f64>, to: fn(f64) -> f64| match x.filter(|x| x.is_finite()) {
-        Some(x) => rounded_at(x, 6.0, to),
+    let known = |bound: Bound, x: Option<f64>| match x.filter(|x| x.is_finite()) {
+        Some(x) => bound.decimals(x, 6),
         None => "?".to_owned(),
     };
     let [low, high] = run.t_range;
-    let (low, high) = (known(low, f64::floor), known(high, f64::ceil));
+    let (low, high) = (known(Bound::Lower, low), known(Bound::Upper, high));
     row("range of t", format!("{low} to {high}"));
     row("seconds", shown(Some(run.seconds)));
     if let Some(bend) = &run.options.bend {

@@ -1,5 +1,6 @@
-//! As many digits of a number as are certain.
+//! As many digits of a number as are certain, and decimals that bound a number.
 
+use crate::decimal::Decimal;
 use crate::interval::Interval;
 use crate::rational::Rational;
 use num_bigint::BigInt;
@@ -85,6 +86,78 @@ fn zero(x: Interval) -> Option<String> {
     certain.next()
 }
 
+/// A bound of a number, written as a decimal. On which side the decimal is is decided exactly, so it may be read as part of a proof.
+///
+/// ```
+/// use krawl::interval::Bound;
+/// assert_eq!(Bound::Lower.decimals(0.6666667, 6), "0.666666");
+/// assert_eq!(Bound::Upper.decimals(0.6666667, 6), "0.666667");
+/// // The float nearest to 0.1 is a little more.
+/// assert_eq!(Bound::Lower.decimals(0.1, 1), "0.1");
+/// assert_eq!(Bound::Upper.decimals(0.1, 1), "0.2");
+/// assert_eq!(Bound::Upper.short(-168.2082731), "-168.208");
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Bound {
+    /// Not above the number.
+    Lower,
+    /// Not below it.
+    Upper,
+}
+
+impl Bound {
+    /// The end of an interval that bounds it on this side.
+    pub fn end(self, x: Interval) -> f64 {
+        match self {
+            Bound::Lower => x.inf(),
+            Bound::Upper => x.sup(),
+        }
+    }
+
+    /// Whether a decimal is such a bound.
+    fn holds(self, decimal: &str, x: f64) -> bool {
+        match (value_and_unit(decimal), Rational::from_float(x)) {
+            (Some((value, _)), Some(exact)) if self == Bound::Lower => value <= exact,
+            (Some((value, _)), Some(exact)) => value >= exact,
+            // Infinity is written as such.
+            _ => true,
+        }
+    }
+
+    /// The nearest one with so many digits behind the point.
+    pub fn decimals(self, x: f64, decimals: usize) -> String {
+        // Adding zero turns -0 into 0.
+        let shown = format!("{:.*}", decimals, x + 0.0);
+        let text = match self.holds(&shown, x) {
+            true => shown,
+            false => {
+                let sign = if self == Bound::Lower { "-" } else { "" };
+                let step = format!("{sign}1e-{decimals}").parse::<Decimal>();
+                match shown
+                    .parse::<Decimal>()
+                    .and_then(|shown| shown.plus(&step?))
+                {
+                    Ok(next) if !next.value().is_zero() => next.text().to_owned(),
+                    Ok(_) => format!("{:.*}", decimals, 0.0),
+                    // Numbers of 60 digits are none of krawl's.
+                    Err(_) => shown,
+                }
+            }
+        };
+        match text.strip_prefix('-') {
+            Some(zero) if zero.bytes().all(|b| b"0.".contains(&b)) => zero.to_owned(),
+            _ => text,
+        }
+    }
+
+    /// The nearest one with six digits, or, of numbers from a million on, none behind the point.
+    pub fn short(self, x: f64) -> String {
+        let size = x.abs().log10().floor();
+        let decimals = if size.is_finite() { 5.0 - size } else { 6.0 };
+        self.decimals(x, decimals.clamp(0.0, 15.0) as usize)
+    }
+}
+
 /// Whether a number is readable without a power of ten.
 fn fixed(x: f64) -> bool {
     (1e-4..1e7).contains(&x.abs())
@@ -131,6 +204,29 @@ mod tests {
     }
 
     proptest! {
+        #[test]
+        fn bounds_are_on_their_side(
+            x in prop_oneof![
+                -1e3f64..1e3,
+                -1e-9f64..1e-9,
+                -1e15f64..1e15,
+                (-9999i32..9999).prop_map(|k| f64::from(k) / 1000.0),
+            ],
+            decimals in 0usize..16,
+        ) {
+            let exact = Rational::from_float(x).unwrap();
+            let value = |text: &str| text.parse::<Decimal>().unwrap().value().clone();
+            let [low, high] = [Bound::Lower, Bound::Upper].map(|bound| bound.decimals(x, decimals));
+            prop_assert!(value(&low) <= exact && exact <= value(&high), "{low} {x} {high}");
+            let unit = value(&format!("1e-{decimals}"));
+            prop_assert!(value(&high) - value(&low) <= unit, "{low} {x} {high}");
+            for text in [&low, &high] {
+                let behind = text.split_once('.').map_or(0, |(_, digits)| digits.len());
+                prop_assert!(behind == decimals && text.parse::<f64>().is_ok(), "{text}");
+                prop_assert!(text.parse::<f64>() != Ok(0.0) || !text.starts_with('-'), "{text}");
+            }
+        }
+
         #[test]
         fn one_unit_of_the_last_digit_covers_all(middle in -1e3f64..1e3, scale in -12i32..12, width in -17i32..0) {
             prop_assume!(middle != 0.0);

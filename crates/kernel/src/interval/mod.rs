@@ -22,7 +22,7 @@ pub mod rounding;
 pub mod vector;
 
 #[doc(hidden)]
-pub use digits::certain_digits;
+pub use digits::{Bound, certain_digits};
 pub use double_double::{DoubleDouble, at_least, gamma_double};
 pub use enclosure::{enclose, enclose_rational};
 #[doc(hidden)]

@@ -250,26 +250,32 @@ impl Within {
     }
 
     /// By how much something changes over all figures, as seen from the middle, of which these are the derivatives by the unknowns that it
-    /// depends on over all figures; and for each of the limits by how much, about, it grows as that dimension does.
-    pub fn change(&self, slopes: &[(usize, Interval)]) -> (Interval, Vec<f64>) {
-        let m = self.centre.len();
+    /// depends on over all figures.
+    pub fn change(&self, slopes: &[(usize, Interval)]) -> Interval {
         // What is linear in the right-hand sides is taken together, as each of these stands for itself.
-        let weight = |e: usize| {
-            sum(slopes
-                .iter()
-                .map(|(i, slope)| point(slope.mid()) * point(self.inverse[i * m + e])))
-        };
-        let weights: Vec<Interval> = (0..m).map(weight).collect();
-        let linear = -sum(weights.iter().zip(&self.missed).map(|(w, f)| *w * *f));
+        let linear = -sum(self.weights(slopes).zip(&self.missed).map(|(w, f)| w * *f));
         let rest = sum(slopes.iter().map(|&(i, slope)| {
             let middle = point(slope.mid());
             middle * self.rest[i] + (slope - middle) * self.around[i]
         }));
-        let effects = self.limited.growth.iter().map(|growth| {
-            let effect = weights.iter().zip(growth).map(|(w, grown)| w.mid() * grown);
-            effect.sum()
-        });
-        (linear + rest, effects.collect())
+        linear + rest
+    }
+
+    /// For each of the limits by how much something grows, about, as that dimension does, of which these are the derivatives.
+    pub fn effects(&self, slopes: &[(usize, Interval)]) -> Vec<f64> {
+        let weights: Vec<f64> = self.weights(slopes).map(|weight| weight.mid()).collect();
+        let of = |growth: &Vec<f64>| weights.iter().zip(growth).map(|(w, grown)| w * grown).sum();
+        self.limited.growth.iter().map(of).collect()
+    }
+
+    /// How much each right-hand side counts where the derivatives are in the middle of these.
+    fn weights(&self, slopes: &[(usize, Interval)]) -> impl Iterator<Item = Interval> {
+        let m = self.centre.len();
+        let weight = move |e: usize| {
+            let terms = slopes.iter();
+            sum(terms.map(|(i, slope)| point(slope.mid()) * point(self.inverse[i * m + e])))
+        };
+        (0..m).map(weight)
     }
 
     /// The figure with each dimension at its greatest value, or its least, if the path there is proved.

@@ -84,14 +84,21 @@ pub struct Measured {
 }
 
 impl Measured {
-    /// The part of a range, which has the bounds in it, by which it may be too wide; infinite where it has no width.
-    pub fn gap(&self, [low, high]: [f64; 2]) -> f64 {
+    /// A bound of the part of a range, which is told by decimals and has the bounds in it, by which it may be too wide; infinite where it has
+    /// no width.
+    pub fn gap(&self, range: &[String; 2]) -> f64 {
+        let exact = |end: &String| {
+            end.parse::<Decimal>()
+                .map(|end| enclose_rational(end.value()))
+        };
+        let [Ok(low), Ok(high)] = range.each_ref().map(exact) else {
+            return f64::INFINITY;
+        };
         let [least, greatest] = &self.bounds;
-        let too_wide = (least.sup() - low) + (high - greatest.inf());
-        if high > low {
-            too_wide / (high - low)
-        } else {
-            f64::INFINITY
+        let too_wide = (point(least.sup()) - low) + (high - point(greatest.inf()));
+        match (high - low).inf() > 0.0 {
+            true => (too_wide / (high - low)).sup(),
+            false => f64::INFINITY,
         }
     }
 }
@@ -341,10 +348,10 @@ fn measure(
     control: &mut Control,
 ) -> Result<Measured, String> {
     let middle = quantity.key(|p| within.middle(p), 0.0);
-    let (change, _) = within.change(&slopes(within, quantity, |p| within.near(p), middle.mid()));
+    let over_all = slopes(within, quantity, |p| within.near(p), middle.mid());
+    let all = middle + within.change(&over_all);
     let about = slopes(within, quantity, |p| within.middle(p), middle.mid());
-    let (_, effects) = within.change(&about);
-    let all = middle + change;
+    let effects = within.effects(&about);
     if quantity.is_in_degrees() && (all.wid().is_nan() || all.wid() > WHOLE_TURN) {
         return Err(format!(
             "--measure \"{}\": within the limits its points may come together, where an angle has no meaning",
