@@ -25,7 +25,7 @@ pub struct Source {
     pub which: Which,
 }
 
-/// What of a file is read.
+/// Which part of a file is meant, and whether all of it is read.
 #[derive(Clone, Default, clap::Args)]
 pub struct Which {
     /// Which sketch or molecule of a file that holds several (`krawl check` lists them)
@@ -33,7 +33,7 @@ pub struct Which {
     pub sketch: Option<String>,
     /// Read a molecule without its hydrogens
     ///
-    /// Files that are written have them, as each stands to the atoms near it in the file that was read: nothing is proved of them
+    /// Files that are written have them, each turned as the other bonds of its atom are: nothing is proved of them
     #[arg(long, hide_short_help = true)]
     pub heavy: bool,
 }
@@ -45,8 +45,8 @@ impl Source {
     }
 }
 
-/// Reads a problem file, or standard input for `-`, or a file of another program, whose `sketch` may be named. The
-/// text of the error says what is wrong, and where.
+/// Reads a problem file, or standard input for `-`, or a sketch or molecule of another program's file. The text of the
+/// error says what is wrong, and where.
 pub fn read(file: &Path, which: &Which) -> Result<Problem, String> {
     let loaded = load(file, which)?;
     if is_sketch(file) {
@@ -175,8 +175,8 @@ pub struct Loaded {
     imported: Option<(Imported, Vec<u8>)>,
 }
 
-/// Reads a sketch to be edited: a problem file, which may be under-constrained, or a file of another program, of which
-/// `sketch` names the sketch.
+/// Reads a sketch to be edited: a problem file, which may be under-constrained, or a sketch or molecule of another
+/// program's file.
 pub fn load(file: &Path, which: &Which) -> Result<Loaded, String> {
     let loaded = load_again(file, which)?;
     if let Some((imported, _)) = &loaded.imported
@@ -192,13 +192,13 @@ pub fn load(file: &Path, which: &Which) -> Result<Loaded, String> {
 pub fn load_again(file: &Path, which: &Which) -> Result<Loaded, String> {
     let name = file.display().to_string();
     if format(file).is_none() {
-        let option = match which {
-            Which { heavy: true, .. } => "--heavy is for molecules",
-            Which { sketch: None, .. } => "",
-            _ => "--sketch is for files that hold several sketches or molecules",
-        };
-        if !option.is_empty() {
-            return Err(format!("{name}: {option}"));
+        if which.heavy {
+            return Err(format!("{name}: --heavy is for molecules"));
+        }
+        if which.sketch.is_some() {
+            return Err(format!(
+                "{name}: --sketch is for files that hold several sketches or molecules"
+            ));
         }
         let (text, read) = match file == Path::new("-") {
             true => {

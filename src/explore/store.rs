@@ -73,16 +73,16 @@ impl Contents {
             .collect()
     }
 
+    /// Takes in what a line of the journal changes.
     fn take(&mut self, Line { change, state }: Line) {
-        self.sketches.extend(
-            change
-                .sketches
-                .into_iter()
-                .map(|sketch| (sketch.id, sketch)),
-        );
+        let sketches = change.sketches.into_iter();
+        self.sketches
+            .extend(sketches.map(|sketch| (sketch.id, sketch)));
         self.classes.extend(change.classes);
         self.out.extend(change.out);
-        self.out.retain(|id, _| !change.back.contains(id));
+        for id in change.back {
+            self.out.remove(&id);
+        }
         for path in change.paths {
             self.out.remove(&path.id);
             self.paths.insert(path.id, path);
@@ -143,7 +143,6 @@ impl Store {
     /// Opens the store in a folder for a problem, given as the text of its file, or makes it; and what is in it.
     pub fn open(folder: &Path, problem: &str) -> Result<(Self, Contents), StoreError> {
         std::fs::create_dir_all(folder).map_err(|e| failed(folder, e))?;
-        Self::check(folder)?;
         let (mut store, whole) = Self::at(folder)?;
         let Some(whole) = whole else {
             let problem = problem.to_owned();
@@ -161,9 +160,8 @@ impl Store {
 
     /// Opens the store in a folder that has one, and hands out its problem and what is in it.
     pub fn existing(folder: &Path) -> Result<(Self, String, Contents), StoreError> {
-        Self::check(folder)?;
         let missing = || StoreError::Missing(folder.to_owned());
-        if !file(folder).is_file() {
+        if !file(folder).is_file() && !database(folder).exists() {
             return Err(missing());
         }
         let (store, whole) = Self::at(folder)?;
@@ -171,21 +169,17 @@ impl Store {
         Ok((store, whole.about.problem.clone(), contents(whole)))
     }
 
-    /// That no krawl of before December 2026 wrote it, which kept a database.
-    fn check(folder: &Path) -> Result<(), StoreError> {
-        match folder.join("explore.redb").exists() {
-            false => Ok(()),
-            true => {
-                let what = "another version of krawl wrote this store; name another folder";
-                Err(StoreError::Failed(folder.to_owned(), what.to_owned()))
-            }
-        }
-    }
-
     fn at(folder: &Path) -> Result<(Self, Option<Whole<About, Line>>), StoreError> {
+        if database(folder).exists() {
+            let what = "another version of krawl wrote this store; name another folder";
+            return Err(StoreError::Failed(folder.to_owned(), what.to_owned()));
+        }
         let opened = KIND.open::<About, Line>(&file(folder));
         let (journal, whole) = opened.map_err(|error| match error.kind() {
             ErrorKind::WouldBlock => StoreError::Busy(folder.to_owned()),
+            ErrorKind::InvalidData => {
+                StoreError::Failed(file(folder), format!("{error}; name another folder"))
+            }
             _ => failed(&file(folder), error),
         })?;
         if let Some(line) = whole.as_ref().and_then(|whole| whole.damaged) {
@@ -221,6 +215,11 @@ fn contents(whole: Whole<About, Line>) -> Contents {
 
 fn failed(folder: &Path, error: Error) -> StoreError {
     StoreError::Failed(folder.to_owned(), error.to_string())
+}
+
+/// What krawl kept before December 2026.
+fn database(folder: &Path) -> PathBuf {
+    folder.join("explore.redb")
 }
 
 fn file(folder: &Path) -> PathBuf {

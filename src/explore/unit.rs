@@ -112,15 +112,17 @@ pub fn work(
                     "another krawl process writes to it; name another file by `--out`, or wait"
                         .to_owned(),
                 ),
+                ErrorKind::InvalidData => at(format!("{error}; name another file by `--out`")),
                 _ => at(error.to_string()),
             })?;
+    let about = share.about();
     let known = match known {
         None => {
-            let begun = journal.begin(&RESULT, &share.about());
+            let begun = journal.begin(&RESULT, &about);
             begun.map_err(|e| at(e.to_string()))?;
             BTreeSet::new()
         }
-        Some(whole) if whole.about == share.about() => {
+        Some(whole) if whole.about == about => {
             let whole = undamaged(whole).map_err(at)?;
             whole.lines.iter().map(|record| record.id).collect()
         }

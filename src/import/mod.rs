@@ -209,7 +209,7 @@ pub fn read(file: &str, bytes: &[u8], sketch: Option<&str>) -> Result<Imported, 
     read_with(file, bytes, sketch, false)
 }
 
-/// Reads a molecule without its hydrogens: [`rewrite`] puts them where they stand to the atoms near them in the file.
+/// Reads a molecule without its hydrogens: [`rewrite`] turns each as the other bonds of its atom are.
 ///
 /// # Errors
 /// As of [`read`], and if the file is not one of molecules.
@@ -244,7 +244,7 @@ fn read_with(
     })?;
     match Format::of(file) {
         Some(Format::SolveSpace | Format::FreeCad) if heavy => {
-            Err("only molecules have hydrogens that can be left out".to_owned())
+            Err("only of molecules hydrogens are left out (--heavy)".to_owned())
         }
         Some(Format::SolveSpace) => slvs::read(bytes, index),
         #[cfg(feature = "freecad")]

@@ -76,14 +76,16 @@ fn read(bytes: &[u8]) -> Imported {
     import::read("corner.FCStd", bytes, None).unwrap()
 }
 
-/// Variables of a `VarSet`, as FreeCAD 1.0 has them, are named, computed from one another and set.
+/// A property of a `VarSet`, as FreeCAD 1.0 writes it.
+fn property(kind: &str, name: &str, value: &str) -> String {
+    format!(
+        "<Property name=\"{name}\" type=\"App::Property{kind}\" group=\"Base\" doc=\"\" attr=\"0\" ro=\"0\" hide=\"0\">{value}</Property>"
+    )
+}
+
+/// Variables of a `VarSet` are named, computed from one another and set.
 #[test]
 fn variables_are_read_and_set() {
-    let property = |kind: &str, name: &str, value: &str| {
-        format!(
-            "<Property name=\"{name}\" type=\"App::Property{kind}\" group=\"Base\" doc=\"\" attr=\"0\" ro=\"0\" hide=\"0\">{value}</Property>"
-        )
-    };
     let number = |kind: &str, name: &str, value: &str| {
         property(kind, name, &format!("<Float value=\"{value}\"/>"))
     };
@@ -152,15 +154,10 @@ fn variables_are_read_and_set() {
 /// A whole number that would come to a part of one is not followed.
 #[test]
 fn a_whole_variable_stays_whole() {
-    let number = |kind: &str, name: &str, value: &str| {
-        format!(
-            "<Property name=\"{name}\" type=\"App::Property{kind}\" group=\"Base\">{value}</Property>"
-        )
-    };
     let variables = [
-        number("Length", "width", "<Float value=\"20.0\"/>"),
-        number("Integer", "n", "<Integer value=\"2\"/>"),
-        number(
+        property("Length", "width", "<Float value=\"20.0\"/>"),
+        property("Integer", "n", "<Integer value=\"2\"/>"),
+        property(
             "ExpressionEngine",
             "ExpressionEngine",
             "<ExpressionEngine><Expression path=\"n\" expression=\"width / 10 mm\"/></ExpressionEngine>",

@@ -106,7 +106,7 @@ impl Kind {
             return Err(broken(what));
         }
         let mut rest = bytes.split_inclusive(|&b| b == b'\n');
-        let text = |line: &'_ [u8]| String::from_utf8(line.strip_suffix(b"\n")?.to_vec()).ok();
+        let text = |line: &[u8]| String::from_utf8(line.strip_suffix(b"\n")?.to_vec()).ok();
         let length = rest.next().map_or(0, <[u8]>::len);
         if !bytes[..length].ends_with(b"\n") {
             return Ok(None);

@@ -12,12 +12,14 @@ use std::ops::Range;
 /// So many numbers are computed from one another, each from one that is not known yet.
 const MOST: usize = 50;
 
+/// What kind of object it is, and so how expressions name its numbers.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Kind {
-    /// Numbers have names behind the object's.
+    /// A spreadsheet: `Spreadsheet.B1`.
     Sheet,
+    /// A `VarSet`: `VarSet.width`.
     Variables,
-    /// Numbers, if there are any, have names behind `Constraints`.
+    /// A sketch, `Sketch.Constraints.width`, or an object that has no numbers here.
     Sketch,
 }
 

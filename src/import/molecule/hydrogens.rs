@@ -1,4 +1,4 @@
-//! Hydrogens that are left out of a molecule as it is read, and stand in the file that is written as they did to the atoms near them.
+//! Hydrogens that are left out of a molecule as it is read, and stand in the file that is written as they did to the bonds of their atoms.
 
 use super::skeleton::neighbours;
 use crate::interval::vector::{length, minus};

@@ -317,10 +317,7 @@ pub fn read(
             counted(n, "atom")
         ));
     }
-    let apart = |a: usize, b: usize| -> f64 {
-        let square: f64 = (0..3).map(|k| (places[a][k] - places[b][k]).powi(2)).sum();
-        square.sqrt()
-    };
+    let apart = |a: usize, b: usize| length(minus(places[a], places[b]));
     let bonds = match molecule.bonds {
         Some(bonds) => bonds,
         None => {

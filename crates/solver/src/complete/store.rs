@@ -128,12 +128,14 @@ impl<F: Piece> Store<F> {
                     &"another krawl process has this store open; wait for it to end, or share the work by --share with \
                       a folder for each process",
                 ),
+                ErrorKind::InvalidData => at(&format!("{error}; name another folder")),
                 _ => at(&error),
             }
         })?;
-        let (head, lines) = known.map(|known| (known.about, known.lines)).unzip();
+        let known = known.map(|known| (known.about, known.lines));
+        let (head, lines): (Option<Head>, _) = known.unzip();
         if let Some(head) = &head {
-            Head::is_of(head, problem, cover).map_err(|what| at(&what))?;
+            head.is_of(problem, cover).map_err(|what| at(&what))?;
         }
         Ok(Store {
             journal,
