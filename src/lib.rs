@@ -123,7 +123,7 @@ pub use krawl_solver::{
 #[doc(hidden)]
 pub use krawl_solver::{elimination, linalg, plan, remarks};
 
-use krawl_solver::{debug_in_words, order, places, sets};
+use krawl_solver::{debug_in_words, named, order, places, sets};
 #[cfg(feature = "explore")]
 use krawl_solver::{journal, random};
 

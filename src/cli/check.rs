@@ -598,7 +598,7 @@ fn object_line(problem: &Problem, object: &Object) -> String {
             let [one, other] = bodies.map(|body| &problem.objects[body].name);
             format!(
                 "{name}, a {} joint of {one} and {other}",
-                sort.key().replace('_', " ")
+                sort.name().replace('_', " ")
             )
         }
         Shape::Body {

@@ -9,46 +9,50 @@ use crate::places::Each as _;
 use crate::track::{Mode, Outcome, Status};
 use std::fmt;
 
-/// What a run is worth.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Verdict {
-    /// It ended as the certified run did, closed or open, and its solutions are those of that run, in the same order.
-    /// For a certified run itself: it is proved.
-    Right,
-    /// It stopped, and nothing that it says up to there is wrong.
-    Stopped,
-    /// A certified run that ended open, as the one that others are judged by did, but earlier: nothing that it says is wrong,
-    /// and so many solutions of the arc that the other one proved are beyond its ends.
-    Earlier(usize),
-    /// It is wrong in these ways.
-    Wrong(Vec<Fault>),
-    /// No certified run closed or ended open, so that nothing can be judged. Or one proved an arc, on which this run
-    /// is not wrong, but it says more than can be told from that: it closed, or has figures beside those that are on the arc.
-    /// The path may be closed beyond the ends of the arc, and the figures may be on it there.
-    Unjudged,
+crate::named! {
+    /// What a run is worth.
+    #[derive(Debug, Clone, PartialEq)]
+    pub enum Verdict {
+        /// It ended as the certified run did, closed or open, and its solutions are those of that run, in the same order.
+        /// For a certified run itself: it is proved.
+        Right = "right",
+        /// It stopped, and nothing that it says up to there is wrong.
+        Stopped = "stopped",
+        /// A certified run that ended open, as the one that others are judged by did, but earlier: nothing that it says is wrong,
+        /// and so many solutions of the arc that the other one proved are beyond its ends.
+        Earlier(usize) = "earlier",
+        /// It is wrong in these ways.
+        Wrong(Vec<Fault>) = "wrong",
+        /// No certified run closed or ended open, so that nothing can be judged. Or one proved an arc, on which this run
+        /// is not wrong, but it says more than can be told from that: it closed, or has figures beside those that are on the arc.
+        /// The path may be closed beyond the ends of the arc, and the figures may be on it there.
+        Unjudged = "unjudged",
+    }
 }
 
-/// A way of being wrong.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Fault {
-    /// It closed, or ended open, without this many of the solutions on the path (or the proved arc), or passed over them
-    /// before it stopped.
-    Lost(usize),
-    /// This many figures meet all constraints, but are not on the path through the sketch: the
-    /// run jumped to another one.
-    Jumped(usize),
-    /// This many figures do not even meet the constraints, or were reported twice.
-    Invented(usize),
-    /// It met the solutions in another order than the path does: it jumped from one part of the
-    /// path to another, or took one solution for another.
-    Order,
-    /// It closed after this many times the path's length: not the loop through the sketch, or not
-    /// once.
-    Length(f64),
-    /// It went on for this many times the path's length and did not notice the sketch.
-    NotClosed(f64),
-    /// It ended open, though the path is closed.
-    Open,
+crate::named! {
+    /// A way of being wrong.
+    #[derive(Debug, Clone, Copy, PartialEq)]
+    pub enum Fault {
+        /// It closed, or ended open, without this many of the solutions on the path (or the proved arc), or passed over them
+        /// before it stopped.
+        Lost(usize) = "lost",
+        /// This many figures meet all constraints, but are not on the path through the sketch: the
+        /// run jumped to another one.
+        Jumped(usize) = "jumped",
+        /// This many figures do not even meet the constraints, or were reported twice.
+        Invented(usize) = "invented",
+        /// It met the solutions in another order than the path does: it jumped from one part of the
+        /// path to another, or took one solution for another.
+        Order = "order",
+        /// It closed after this many times the path's length: not the loop through the sketch, or not
+        /// once.
+        Length(f64) = "length",
+        /// It went on for this many times the path's length and did not notice the sketch.
+        NotClosed(f64) = "not_closed",
+        /// It ended open, though the path is closed.
+        Open = "open",
+    }
 }
 
 impl fmt::Display for Fault {

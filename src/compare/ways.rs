@@ -2,25 +2,16 @@
 
 use crate::track::{Options, Space};
 
-/// How the path is followed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Method {
-    /// Every step proved.
-    Certified,
-    /// Floating point.
-    Float,
-    /// Floating point, stepping as in RR 8705.
-    Paper,
-}
-
-impl Method {
-    /// Its name in tables and files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Method::Certified => "certified",
-            Method::Float => "float",
-            Method::Paper => "paper",
-        }
+crate::named! {
+    /// How the path is followed.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+    pub enum Method {
+        /// Every step proved.
+        Certified = "certified",
+        /// Floating point.
+        Float = "float",
+        /// Floating point, stepping as in RR 8705.
+        Paper = "paper",
     }
 }
 
@@ -36,11 +27,8 @@ pub struct Way {
 impl Way {
     /// All ways, in the order of a comparison's rows. Certified ways are first: the others are judged against them.
     pub fn all() -> impl Iterator<Item = Way> {
-        let methods = [Method::Certified, Method::Float, Method::Paper];
-        let spaces = [Space::Full, Space::Reduced];
-        methods
-            .into_iter()
-            .flat_map(move |method| spaces.map(|space| Way { method, space }))
+        let of = |method| Space::ALL.map(|space| Way { method, space });
+        Method::ALL.into_iter().flat_map(of)
     }
 
     /// The options of a run.
@@ -56,25 +44,16 @@ impl Way {
     }
 }
 
-/// What a sweep varies.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Knob {
-    /// [`Options::tube_radius`].
-    TubeRadius,
-    /// [`Options::tolerance`].
-    Tolerance,
-    /// [`Options::max_step`].
-    MaxStep,
-}
-
-impl Knob {
-    /// Its name in tables and files: the option of `krawl solve`.
-    pub fn name(self) -> &'static str {
-        match self {
-            Knob::TubeRadius => "tube-radius",
-            Knob::Tolerance => "tolerance",
-            Knob::MaxStep => "max-step",
-        }
+crate::named! {
+    /// What a sweep varies.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+    pub enum Knob {
+        /// [`Options::tube_radius`].
+        TubeRadius = "tube-radius",
+        /// [`Options::tolerance`].
+        Tolerance = "tolerance",
+        /// [`Options::max_step`].
+        MaxStep = "max-step",
     }
 }
 

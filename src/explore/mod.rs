@@ -102,28 +102,18 @@ pub struct Progress {
     pub rate: f64,
 }
 
-/// How a run ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Finish {
-    /// Nothing new came.
-    Ended,
-    /// The time is over, or so many paths were followed.
-    Budget,
-    /// Somebody asked it to stop.
-    Interrupted,
-    /// So many sketches are in work units, and no others are left.
-    Shared(usize),
-}
-
-impl Finish {
-    /// Its name in files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Finish::Ended => "ended",
-            Finish::Budget => "budget",
-            Finish::Interrupted => "interrupted",
-            Finish::Shared(_) => "shared",
-        }
+crate::named! {
+    /// How a run ended.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum Finish {
+        /// Nothing new came.
+        Ended = "ended",
+        /// The time is over, or so many paths were followed.
+        Budget = "budget",
+        /// Somebody asked it to stop.
+        Interrupted = "interrupted",
+        /// So many sketches are in work units, and no others are left.
+        Shared(usize) = "shared",
     }
 }
 

@@ -104,32 +104,21 @@ pub struct Met {
     pub figure: BoxRecord,
 }
 
-/// How the run along a path ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum End {
-    /// The path is a loop, proved.
-    Closed,
-    /// It has two ends, and is proved between them.
-    Open,
-    /// The run stopped before. What it found before is proved.
-    Stopped,
-    /// It was not followed, as a proved path passes through it at t = 0.
-    Recognised,
-    /// No path can set out from it.
-    Unusable,
-}
-
-impl End {
-    /// Its name in files.
-    pub fn name(self) -> &'static str {
-        match self {
-            End::Closed => "closed",
-            End::Open => "open",
-            End::Stopped => "stopped",
-            End::Recognised => "recognised",
-            End::Unusable => "unusable",
-        }
+crate::named! {
+    /// How the run along a path ended.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+    #[serde(rename_all = "kebab-case")]
+    pub enum End {
+        /// The path is a loop, proved.
+        Closed = "closed",
+        /// It has two ends, and is proved between them.
+        Open = "open",
+        /// The run stopped before. What it found before is proved.
+        Stopped = "stopped",
+        /// It was not followed, as a proved path passes through it at t = 0.
+        Recognised = "recognised",
+        /// No path can set out from it.
+        Unusable = "unusable",
     }
 }
 

@@ -94,7 +94,7 @@ pub fn problem_file(xml: &str) -> Result<String, String> {
             joints,
             "{} = {{ {} = [{first}, {second}], at = {}, z = {}, x = {} }}",
             quoted(&name),
-            sort.key(),
+            sort.name(),
             pair(|p| &p.at),
             pair(|p| &p.z),
             pair(|p| &p.x)

@@ -84,25 +84,6 @@ fn no_figures(lowered: &Lowered, result: &Solutions) -> String {
     )
 }
 
-pub(super) fn name(nature: Nature) -> &'static str {
-    match nature {
-        Nature::Real => "real",
-        Nature::SelfConjugate => "self-conjugate",
-        Nature::Pair(_) => "pair",
-        Nature::Alone => "alone",
-        Nature::Unknown => "unknown",
-    }
-}
-
-/// The name of a status in files.
-pub(super) fn status(status: &Status) -> &'static str {
-    match status {
-        Status::Complete => "complete",
-        Status::Found => "found",
-        Status::Partial => "partial",
-    }
-}
-
 /// The result for programs, as one line of JSON.
 pub fn complex_to_json(problem: &Problem, lowered: &Lowered, result: &Solutions) -> String {
     text(&Complex::new(problem, lowered, result))

@@ -18,6 +18,45 @@ macro_rules! debug_in_words {
     };
 }
 
+/// An enum of which each variant has a name, which `name` tells; `ALL` lists those of one whose variants have nothing in them.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! named {
+    ($(#[$about:meta])* $vis:vis enum $sort:ident { $($(#[$what:meta])* $variant:ident = $name:literal,)* }) => {
+        $(#[$about])*
+        $vis enum $sort {
+            $($(#[$what])* $variant,)*
+        }
+
+        impl $sort {
+            /// All of them.
+            pub const ALL: [Self; [$($name),*].len()] = [$(Self::$variant),*];
+
+            /// Its name in files and tables, and where it can be chosen on the command line.
+            pub fn name(self) -> &'static str {
+                match self {
+                    $(Self::$variant => $name,)*
+                }
+            }
+        }
+    };
+    ($(#[$about:meta])* $vis:vis enum $sort:ident { $($(#[$what:meta])* $variant:ident $(($inside:ty))? = $name:literal,)* }) => {
+        $(#[$about])*
+        $vis enum $sort {
+            $($(#[$what])* $variant $(($inside))?,)*
+        }
+
+        impl $sort {
+            /// Its name in files and tables.
+            pub fn name(&self) -> &'static str {
+                match self {
+                    $(Self::$variant { .. } => $name,)*
+                }
+            }
+        }
+    };
+}
+
 #[doc(hidden)]
 pub mod decimal;
 #[doc(hidden)]

@@ -11,7 +11,7 @@ extern crate self as krawl;
 
 #[doc(hidden)]
 pub use krawl_kernel::{
-    debug_in_words, decimal, elimination, hexadecimal, linalg, map, order, places, random,
+    debug_in_words, decimal, elimination, hexadecimal, linalg, map, named, order, places, random,
     residues, sets,
 };
 pub use krawl_kernel::{equations, interval, rational};

@@ -1,10 +1,11 @@
 //! What is asked of a file, and how it is followed.
 
-use super::{Arguments, Mode, input};
+use super::{Arguments, input};
 use krawl::blocks::MOST_POINTS;
 use krawl::complete::{Surplus, has_equations_to_spare};
 use krawl::constraint::fix_frame;
 use krawl::problem::{Problem, free_coordinates};
+use krawl::track::Mode;
 use std::path::Path;
 
 /// What is asked of a file.

@@ -16,7 +16,8 @@ use super::take::Take;
 use super::{CLOSED, input, interrupt};
 use asked::Asked;
 use clap::ValueEnum;
-use krawl::track::{self, Options};
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use krawl::track::{Mode, Options, Space};
 use std::path::PathBuf;
 use told::Told;
 
@@ -61,12 +62,12 @@ pub struct Arguments {
     #[arg(long, conflicts_with_all = ["all", "summary", "cert", "reverse"])]
     first: bool,
     /// `certified` proves every step, `float` tracks in plain floats
-    #[arg(long, value_enum, hide_possible_values = true, default_value_t = Mode::Certified)]
+    #[arg(long, value_parser = one_of(Mode::ALL, Mode::name), hide_possible_values = true, default_value = "certified")]
     mode: Mode,
     /// All free coordinates, or the driving parameters of a plan
     ///
     /// [default: reduced for float, and for certified from 70 free coordinates on; otherwise full]
-    #[arg(long, value_enum, hide_short_help = true)]
+    #[arg(long, value_parser = one_of(Space::ALL, Space::name), hide_short_help = true)]
     space: Option<Space>,
     /// Float mode: steps by rules of our own, or of RR 8705, 7.1 to 7.3
     #[arg(long, help_heading = "For experiments", value_enum, default_value_t = Preset::Default, hide_short_help = true)]
@@ -154,21 +155,20 @@ pub struct Arguments {
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Mode {
-    Certified,
-    Float,
-}
-
-#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Space {
-    Full,
-    Reduced,
-}
-
-#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Preset {
     Default,
     Paper,
+}
+
+/// Takes one of these by its name.
+fn one_of<T: Copy + Send + Sync + 'static, const N: usize>(
+    all: [T; N],
+    name: fn(T) -> &'static str,
+) -> impl TypedValueParser<Value = T> {
+    PossibleValuesParser::new(all.map(name)).map(move |text| {
+        let mut all = all.into_iter();
+        all.find(|&one| name(one) == text).expect("one of these")
+    })
 }
 
 fn alpha(text: &str) -> Result<f64, String> {
@@ -243,15 +243,11 @@ impl Arguments {
     fn options(&self) -> Options {
         let options = match (self.mode, self.preset) {
             (Mode::Certified, _) => Options::certified(),
-            (Mode::Float, Preset::Default) => Options::float(track::Space::Reduced),
-            (Mode::Float, Preset::Paper) => Options::paper(track::Space::Reduced),
+            (Mode::Float, Preset::Default) => Options::float(Space::Reduced),
+            (Mode::Float, Preset::Paper) => Options::paper(Space::Reduced),
         };
         Options {
-            space: match self.space {
-                Some(Space::Full) => track::Space::Full,
-                Some(Space::Reduced) => track::Space::Reduced,
-                None => options.space,
-            },
+            space: self.space.unwrap_or(options.space),
             max_step: self.max_step,
             tube_radius: self.tube_radius,
             tolerance: self.tolerance,

@@ -1,11 +1,11 @@
 //! Paths of problems that are followed as a whole.
 
-use super::{Arguments, Mode, interrupt};
+use super::{Arguments, interrupt};
 use crate::cli::output::Beside;
 use crate::cli::verify::check_written;
 use krawl::problem::Problem;
 use krawl::report::ProgressLine;
-use krawl::track::{self, Control, First, Outcome, Progress, Signs, Status, Trace};
+use krawl::track::{self, Control, First, Mode, Outcome, Progress, Signs, Status, Trace};
 
 /// Figures along a path for a page: smooth, and not too much to load.
 pub(super) fn samples_for(problem: &Problem) -> usize {

@@ -4,7 +4,7 @@ use super::asked::Asked;
 use super::blocks::{Unbounded, follow_blocks};
 use super::hints::hints;
 use super::path::{follow, follow_finely, follow_first, samples_for};
-use super::{Arguments, Mode, input, interrupt};
+use super::{Arguments, input, interrupt};
 use crate::cli::edit::say_if_it_moves;
 use crate::cli::measured::placed;
 use crate::cli::output::{self, Beside};
@@ -20,7 +20,7 @@ use krawl::report::{
     BlockRuns, Document, Run, alone_in_words, among_in_words, digits_to_table, part_in_words,
     signed_in_words, to_first_table, to_no_first, to_short_table, to_summary, to_table,
 };
-use krawl::track::{Control, Limit, Options, Outcome, Signs, Status, Trace};
+use krawl::track::{Control, Limit, Mode, Options, Outcome, Signs, Status, Trace};
 use std::path::Path;
 use std::time::{Duration, Instant};
 

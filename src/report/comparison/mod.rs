@@ -67,17 +67,6 @@ pub(super) fn switched_on(row: &Row) -> &[String] {
     row.measured().map_or(&[], |m| &m.outcome.switched_on)
 }
 
-/// A verdict in a word.
-pub(super) fn verdict(verdict: &Verdict) -> &'static str {
-    match verdict {
-        Verdict::Right => "right",
-        Verdict::Stopped => "stopped",
-        Verdict::Earlier(_) => "earlier",
-        Verdict::Wrong(_) => "wrong",
-        Verdict::Unjudged => "unjudged",
-    }
-}
-
 /// What there is to say of a certified run that ended before the one that others are judged by.
 fn earlier(beyond: usize) -> String {
     let (solutions, are) = (counted(beyond, "solution"), either(beyond, "is", "are"));

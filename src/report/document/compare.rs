@@ -4,7 +4,7 @@ use super::{JSON_VERSION, all};
 use crate::compare::{Fault, Row, Verdict};
 use crate::problem::Published;
 use crate::report::Compared;
-use crate::report::comparison::{status, switched_on, verdict};
+use crate::report::comparison::{status, switched_on};
 use crate::track::StopKind;
 
 keys! {
@@ -85,7 +85,7 @@ keys! {
         /// What was switched on.
         switched_on: Vec<String> = switched_on(row).to_vec(),
         /// `right`, `wrong`, `stopped`, `unjudged`, or `earlier`: it ended open without all solutions of the arc that is proved.
-        verdict: String = verdict(&row.verdict).into(),
+        verdict: String = row.verdict.name().into(),
         /// What is wrong.
         faults: Vec<FaultOf> = match &row.verdict {
             Verdict::Wrong(faults) => all(faults, FaultOf::new),
@@ -100,15 +100,7 @@ keys! {
     /// A fault.
     FaultOf(fault: &Fault) {
         /// `lost`, `jumped`, `invented`, `order`, `length`, `not_closed` or `open`.
-        fault: String = match fault {
-            Fault::Lost(_) => "lost",
-            Fault::Jumped(_) => "jumped",
-            Fault::Invented(_) => "invented",
-            Fault::Order => "order",
-            Fault::Length(_) => "length",
-            Fault::NotClosed(_) => "not_closed",
-            Fault::Open => "open",
-        }.into(),
+        fault: String = fault.name().into(),
         /// Of how many solutions, or by how much.
         amount: Option<f64> = match *fault {
             Fault::Lost(n) | Fault::Jumped(n) | Fault::Invented(n) => Some(n as f64),

@@ -5,7 +5,7 @@ use crate::complex::infinity::Departure;
 use crate::complex::{Bound, Counts, Lowered, Nature, SolutionBox, Solutions};
 use crate::interval::Interval;
 use crate::problem::Problem;
-use crate::report::complex::{coordinate, name, others, status, vanishing};
+use crate::report::complex::{coordinate, others, vanishing};
 
 /// Bounds of a real and of an imaginary part.
 pub type Parts = [Bounds; 2];
@@ -20,7 +20,7 @@ keys! {
         /// The name of the problem.
         problem: String = problem.name.clone(),
         /// `complete`, `found` or `partial`.
-        status: String = status(&result.status).into(),
+        status: String = result.status.name().into(),
         /// How many there are at most, if that is known.
         bound: Option<BoundOf> = lowered.bound.as_ref().map(BoundOf::new),
         /// From where they are seen.
@@ -86,7 +86,7 @@ keys! {
     /// A solution.
     ComplexFigure(problem: &Problem, lowered: &Lowered, one: &SolutionBox, nature: Nature) {
         /// `real`, `self-conjugate`, `pair`, `alone` or `unknown`.
-        kind: String = name(nature).into(),
+        kind: String = nature.name().into(),
         /// The number of its conjugate, where that is another.
         conjugate: Option<usize> = match nature {
             Nature::Pair(other) => Some(other),

@@ -20,17 +20,19 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::Thread;
 use std::time::{Duration, Instant};
 
-/// What is proved of the solutions listed.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Status {
-    /// They are all.
-    Complete,
-    /// There may be more in the parts that are undecided.
-    #[default]
-    Partial,
-    /// There may be more in the parts that are undecided, and through some of these goes a curve of
-    /// solutions, as far as floats see.
-    Flexible,
+crate::named! {
+    /// What is proved of the solutions listed.
+    #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
+    pub enum Status {
+        /// They are all.
+        Complete = "complete",
+        /// There may be more in the parts that are undecided.
+        #[default]
+        Partial = "partial",
+        /// There may be more in the parts that are undecided, and through some of these goes a curve of
+        /// solutions, as far as floats see.
+        Flexible = "flexible",
+    }
 }
 
 impl Status {
@@ -40,15 +42,6 @@ impl Status {
             [] => Status::Complete,
             parts if parts.iter().any(|part| part.why == Why::Flexible) => Status::Flexible,
             _ => Status::Partial,
-        }
-    }
-
-    /// Its name in files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Status::Complete => "complete",
-            Status::Partial => "partial",
-            Status::Flexible => "flexible",
         }
     }
 }
@@ -206,29 +199,19 @@ pub enum Unserved {
     Refused(String),
 }
 
-/// How the figures were searched.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub enum Method {
-    /// Over the driving parameters of a construction plan.
-    #[default]
-    Plan,
-    /// Over all coordinates.
-    Coordinates,
-    /// Block by block, the blocks put together.
-    Blocks,
-    /// Among all complex solutions, as many as Bézout's bound allows.
-    Complex,
-}
-
-impl Method {
-    /// Its name in files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Method::Plan => "plan",
-            Method::Coordinates => "coordinates",
-            Method::Blocks => "blocks",
-            Method::Complex => "complex",
-        }
+crate::named! {
+    /// How the figures were searched.
+    #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+    pub enum Method {
+        /// Over the driving parameters of a construction plan.
+        #[default]
+        Plan = "plan",
+        /// Over all coordinates.
+        Coordinates = "coordinates",
+        /// Block by block, the blocks put together.
+        Blocks = "blocks",
+        /// Among all complex solutions, as many as Bézout's bound allows.
+        Complex = "complex",
     }
 }
 

@@ -16,31 +16,35 @@ use crate::places::Each as _;
 use crate::problem::counted;
 use std::time::Instant;
 
-/// What is proved of a complex solution, and the conjugate of it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Nature {
-    /// It is real: its conjugate is in the same box, which holds one solution only.
-    Real,
-    /// Its conjugate is congruent to it, and it is not real: some coordinates are real and some imaginary.
-    SelfConjugate,
-    /// Its conjugate is another solution, up to isometry: the one with this index.
-    Pair(usize),
-    /// Its conjugate is none of the solutions found: some are missing.
-    Alone,
-    /// None of these could be proved.
-    Unknown,
+crate::named! {
+    /// What is proved of a complex solution, and the conjugate of it.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum Nature {
+        /// It is real: its conjugate is in the same box, which holds one solution only.
+        Real = "real",
+        /// Its conjugate is congruent to it, and it is not real: some coordinates are real and some imaginary.
+        SelfConjugate = "self-conjugate",
+        /// Its conjugate is another solution, up to isometry: the one with this index.
+        Pair(usize) = "pair",
+        /// Its conjugate is none of the solutions found: some are missing.
+        Alone = "alone",
+        /// None of these could be proved.
+        Unknown = "unknown",
+    }
 }
 
-/// How much is proved about all solutions together.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub enum Status {
-    /// Every isolated complex solution is listed: with the figures at infinity there are as many as a proved bound allows.
-    Complete,
-    /// All paths came to solutions or went away, and no bound is known or met: there may be more.
-    Found,
-    /// Some paths could not be followed to their ends: there may be more.
-    #[default]
-    Partial,
+crate::named! {
+    /// How much is proved about all solutions together.
+    #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+    pub enum Status {
+        /// Every isolated complex solution is listed: with the figures at infinity there are as many as a proved bound allows.
+        Complete = "complete",
+        /// All paths came to solutions or went away, and no bound is known or met: there may be more.
+        Found = "found",
+        /// Some paths could not be followed to their ends: there may be more.
+        #[default]
+        Partial = "partial",
+    }
 }
 
 /// The complex solutions of an instance.

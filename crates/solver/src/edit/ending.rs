@@ -7,18 +7,20 @@ use crate::system::Located;
 use crate::track::Stop;
 use crate::track::arc::Orientation;
 
-/// How an edit ended.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Ending {
-    /// All new dimensions are met, by the one and only continuation of the old figure: between the two there
-    /// is exactly one figure for every t, and none of them is singular.
-    Reached,
-    /// The path turns back before: there is no continuation beyond.
-    Limit(Limit),
-    /// Near a figure where branches seem to meet: seen in floats, not proved. What the proof met there.
-    Passes(Stop),
-    /// The proof ended before, and why.
-    Stopped(Stop),
+crate::named! {
+    /// How an edit ended.
+    #[derive(Debug, Clone, PartialEq)]
+    pub enum Ending {
+        /// All new dimensions are met, by the one and only continuation of the old figure: between the two there
+        /// is exactly one figure for every t, and none of them is singular.
+        Reached = "reached",
+        /// The path turns back before: there is no continuation beyond.
+        Limit(Limit) = "limit",
+        /// Near a figure where branches seem to meet: seen in floats, not proved. What the proof met there.
+        Passes(Stop) = "passes",
+        /// The proof ended before, and why.
+        Stopped(Stop) = "stopped",
+    }
 }
 
 /// The figure at which a path turns back.
@@ -150,18 +152,6 @@ impl Astray {
             "other figures on the way: at t = {:.6}, {}",
             self.t.1, self.stop
         )
-    }
-}
-
-impl Ending {
-    /// Its name in files.
-    pub fn name(&self) -> &'static str {
-        match self {
-            Ending::Reached => "reached",
-            Ending::Limit(_) => "limit",
-            Ending::Passes(_) => "passes",
-            Ending::Stopped(_) => "stopped",
-        }
     }
 }
 

@@ -22,41 +22,25 @@ mod tower;
 use crate::problem::{MAX_POINTS, Problem, counted, free_coordinates};
 use crate::random::Random;
 
-/// A family of structures.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Family {
-    /// Triangles in the plane, each on an edge of the one before: hinged chains of such strips,
-    /// closed by bars.
-    Strip,
-    /// Tetrahedra, each on a face of the one before: hinged chains of such strips, closed by bars.
-    Tetrahedra,
-    /// Octahedra, each sharing an edge with the one before: chains with a few hinges, closed by
-    /// bars. The octahedra have one diagonal in place of an edge, so that they can be built.
-    Chain,
-    /// Octahedra, each on a face of the one before. A few are octahedra, which cannot be built
-    /// point by point (RR 8705, figure 1); the others have one diagonal in place of an edge.
-    Tower,
+crate::named! {
+    /// A family of structures.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+    pub enum Family {
+        /// Triangles in the plane, each on an edge of the one before: hinged chains of such strips,
+        /// closed by bars.
+        Strip = "strip",
+        /// Tetrahedra, each on a face of the one before: hinged chains of such strips, closed by bars.
+        Tetrahedra = "tetrahedra",
+        /// Octahedra, each sharing an edge with the one before: chains with a few hinges, closed by
+        /// bars. The octahedra have one diagonal in place of an edge, so that they can be built.
+        Chain = "chain",
+        /// Octahedra, each on a face of the one before. A few are octahedra, which cannot be built
+        /// point by point (RR 8705, figure 1); the others have one diagonal in place of an edge.
+        Tower = "tower",
+    }
 }
 
 impl Family {
-    /// All of them.
-    pub const ALL: [Family; 4] = [
-        Family::Strip,
-        Family::Tetrahedra,
-        Family::Chain,
-        Family::Tower,
-    ];
-
-    /// `strip`, `tetrahedra`, `chain` or `tower`.
-    pub fn name(self) -> &'static str {
-        match self {
-            Family::Strip => "strip",
-            Family::Tetrahedra => "tetrahedra",
-            Family::Chain => "chain",
-            Family::Tower => "tower",
-        }
-    }
-
     /// 2 for the plane, 3 for space.
     pub fn dimension(self) -> usize {
         match self {

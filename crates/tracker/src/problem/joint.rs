@@ -371,10 +371,10 @@ pub(super) fn joint(
     if !at.item.is_table_like() {
         return Err(wrong());
     }
-    let sorts = JointSort::ALL.map(JointSort::key);
+    let sorts = JointSort::ALL.map(JointSort::name);
     let given = JointSort::ALL
         .into_iter()
-        .filter_map(|sort| Some((sort, at.get(sort.key())?)));
+        .filter_map(|sort| Some((sort, at.get(sort.name())?)));
     let given: Vec<(JointSort, At)> = given.collect();
     if given.is_empty() {
         return Err(at.wrong(&format!(

@@ -163,7 +163,7 @@ impl Problem {
                         };
                         format!(
                             "{{ {} = [{}], at = {}, z = {}, x = {} }}",
-                            sort.key(),
+                            sort.name(),
                             names.join(", "),
                             pair(|p| &p.at),
                             pair(|p| &p.z),

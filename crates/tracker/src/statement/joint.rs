@@ -14,54 +14,30 @@ pub struct Pose {
     pub x: [Decimal; 3],
 }
 
-/// What a joint leaves of the motion of its second body beside its first: both bodies have a frame of the joint.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum JointSort {
-    /// A turn about z, which both frames share with their origins: a hinge.
-    Revolute,
-    /// A travel along z; the frames' axes are parallel, each to each.
-    Prismatic,
-    /// A turn about z, and a travel along it.
-    Cylindrical,
-    /// All turns about the origin.
-    Spherical,
-    /// Turns about the z axes, which are at a right angle to each other and meet in the origin: a Cardan joint.
-    Universal,
-    /// The second frame's plane z = 0 lies in that of the first.
-    Planar,
-    /// The second frame's origin lies in the plane z = 0 of the first.
-    OnPlane,
-    /// None: both frames are one.
-    Rigid,
+crate::named! {
+    /// What a joint leaves of the motion of its second body beside its first: both bodies have a frame of the joint.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+    pub enum JointSort {
+        /// A turn about z, which both frames share with their origins: a hinge.
+        Revolute = "revolute",
+        /// A travel along z; the frames' axes are parallel, each to each.
+        Prismatic = "prismatic",
+        /// A turn about z, and a travel along it.
+        Cylindrical = "cylindrical",
+        /// All turns about the origin.
+        Spherical = "spherical",
+        /// Turns about the z axes, which are at a right angle to each other and meet in the origin: a Cardan joint.
+        Universal = "universal",
+        /// The second frame's plane z = 0 lies in that of the first.
+        Planar = "planar",
+        /// The second frame's origin lies in the plane z = 0 of the first.
+        OnPlane = "on_plane",
+        /// None: both frames are one.
+        Rigid = "rigid",
+    }
 }
 
 impl JointSort {
-    /// All of them, in the order of the documentation.
-    pub const ALL: [Self; 8] = [
-        Self::Revolute,
-        Self::Prismatic,
-        Self::Cylindrical,
-        Self::Spherical,
-        Self::Universal,
-        Self::Planar,
-        Self::OnPlane,
-        Self::Rigid,
-    ];
-
-    /// Its key in problem files.
-    pub fn key(self) -> &'static str {
-        match self {
-            Self::Revolute => "revolute",
-            Self::Prismatic => "prismatic",
-            Self::Cylindrical => "cylindrical",
-            Self::Spherical => "spherical",
-            Self::Universal => "universal",
-            Self::Planar => "planar",
-            Self::OnPlane => "on_plane",
-            Self::Rigid => "rigid",
-        }
-    }
-
     /// Whether it leaves a turn about z as the only one, so that there is an angle.
     pub fn turns(self) -> bool {
         matches!(self, Self::Revolute | Self::Cylindrical | Self::Planar)

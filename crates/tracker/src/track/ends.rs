@@ -34,26 +34,17 @@ pub struct Away {
     pub distance: (f64, f64),
 }
 
-/// What happens to the figure where a path ends.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum EndKind {
-    /// Points go away, ever farther as far as one can see: see [`PathEnd::away`]. Or t does, or goes too far to be followed.
-    Infinite,
-    /// A length that must be positive goes to zero: an angle loses its leg, a radius its circle.
-    Undefined,
-    /// The equations become dependent: a degenerate figure, from which it may go on in several ways, or
-    /// in none.
-    Degenerate,
-}
-
-impl EndKind {
-    /// Its name in files.
-    pub fn name(self) -> &'static str {
-        match self {
-            EndKind::Infinite => "infinite",
-            EndKind::Undefined => "undefined",
-            EndKind::Degenerate => "degenerate",
-        }
+crate::named! {
+    /// What happens to the figure where a path ends.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum EndKind {
+        /// Points go away, ever farther as far as one can see: see [`PathEnd::away`]. Or t does, or goes too far to be followed.
+        Infinite = "infinite",
+        /// A length that must be positive goes to zero: an angle loses its leg, a radius its circle.
+        Undefined = "undefined",
+        /// The equations become dependent: a degenerate figure, from which it may go on in several ways, or
+        /// in none.
+        Degenerate = "degenerate",
     }
 }
 

@@ -8,43 +8,29 @@ use crate::problem::Problem;
 use crate::system::Located;
 use nalgebra::Point3;
 
-/// Whether steps are proved.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Mode {
-    /// Every step is proved by a Krawczyk test.
-    Certified,
-    /// Plain floating-point tracking: results are observations.
-    Float,
-}
-
-impl Mode {
-    /// Its name in tables and files, and on the command line.
-    pub fn name(self) -> &'static str {
-        match self {
-            Mode::Certified => "certified",
-            Mode::Float => "float",
-        }
+crate::named! {
+    /// Whether steps are proved.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+    pub enum Mode {
+        /// Every step is proved by a Krawczyk test.
+        Certified = "certified",
+        /// Plain floating-point tracking: results are observations.
+        Float = "float",
     }
 }
 
-/// Where the path is followed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Space {
-    /// In all free coordinates.
-    Full,
-    /// In the driving parameters of a construction plan.
-    Reduced,
+crate::named! {
+    /// Where the path is followed.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+    pub enum Space {
+        /// In all free coordinates.
+        Full = "full",
+        /// In the driving parameters of a construction plan.
+        Reduced = "reduced",
+    }
 }
 
 impl Space {
-    /// Its name in tables and files, and on the command line.
-    pub fn name(self) -> &'static str {
-        match self {
-            Space::Full => "full",
-            Space::Reduced => "reduced",
-        }
-    }
-
     /// The space in which certified runs are faster, by the number of free coordinates (which is
     /// that of distances): the reduced one from about 70 on (docs/how/tubes.md).
     pub fn for_certified(coordinates: usize) -> Self {

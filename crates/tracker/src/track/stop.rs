@@ -3,85 +3,43 @@
 use std::fmt;
 use std::ops::Deref;
 
-/// What made a run stop.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-#[non_exhaustive]
-pub enum StopKind {
-    /// It was interrupted, or its time was over.
-    Interrupted,
-    /// As many steps, tubes or seconds were spent as were allowed, or it went as far.
-    Limit,
-    /// No more of the path was asked for.
-    Enough,
-    /// t turns back before it is 1, where only the path up to there was asked for.
-    TurnsBack,
-    /// The path does not set out from the sketch: the equations are dependent there, or no first step succeeds.
-    Sketch,
-    /// No step succeeds, however short; certified: none could be proved, or thousands of them lead nowhere.
-    NoStep,
-    /// The same, near a figure where the equations are dependent, so that branches may meet: seen in floats.
-    Singular,
-    /// The same, near a figure with t = 1 that can move: seen in floats.
-    Flexible,
-    /// A figure grows, ever farther as far as one can see.
-    Infinite,
-    /// A length, a radius or a vector that must not vanish goes to zero, or could not be proved not to do so.
-    Undefined,
-    /// A drawn line or arc shrinks to nothing, or an arc grows to a whole circle, and would come out turned round.
-    Vanishes,
-    /// It cannot be told whether t is 1 somewhere, or whether two solutions are one, or congruent.
-    Undecided,
-    /// A constraint that seemed to follow from the others does not.
-    Contradiction,
-    /// The equations of what was asked for cannot be made, or are others than those that were followed.
-    Refused,
-    /// The path was proved the other way from the sketch, not this one.
-    OtherWay,
-    /// Something that must not happen: a bug in krawl.
-    Bug,
-}
-
-impl StopKind {
-    /// All of them.
-    pub const ALL: [StopKind; 16] = [
-        StopKind::Interrupted,
-        StopKind::Limit,
-        StopKind::Enough,
-        StopKind::TurnsBack,
-        StopKind::Sketch,
-        StopKind::NoStep,
-        StopKind::Singular,
-        StopKind::Flexible,
-        StopKind::Infinite,
-        StopKind::Undefined,
-        StopKind::Vanishes,
-        StopKind::Undecided,
-        StopKind::Contradiction,
-        StopKind::Refused,
-        StopKind::OtherWay,
-        StopKind::Bug,
-    ];
-
-    /// Its name in files.
-    pub fn name(self) -> &'static str {
-        match self {
-            StopKind::Interrupted => "interrupted",
-            StopKind::Limit => "limit",
-            StopKind::Enough => "enough",
-            StopKind::TurnsBack => "turns_back",
-            StopKind::Sketch => "sketch",
-            StopKind::NoStep => "no_step",
-            StopKind::Singular => "singular",
-            StopKind::Flexible => "flexible",
-            StopKind::Infinite => "infinite",
-            StopKind::Undefined => "undefined",
-            StopKind::Vanishes => "vanishes",
-            StopKind::Undecided => "undecided",
-            StopKind::Contradiction => "contradiction",
-            StopKind::Refused => "refused",
-            StopKind::OtherWay => "other_way",
-            StopKind::Bug => "bug",
-        }
+crate::named! {
+    /// What made a run stop.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+    #[non_exhaustive]
+    pub enum StopKind {
+        /// It was interrupted, or its time was over.
+        Interrupted = "interrupted",
+        /// As many steps, tubes or seconds were spent as were allowed, or it went as far.
+        Limit = "limit",
+        /// No more of the path was asked for.
+        Enough = "enough",
+        /// t turns back before it is 1, where only the path up to there was asked for.
+        TurnsBack = "turns_back",
+        /// The path does not set out from the sketch: the equations are dependent there, or no first step succeeds.
+        Sketch = "sketch",
+        /// No step succeeds, however short; certified: none could be proved, or thousands of them lead nowhere.
+        NoStep = "no_step",
+        /// The same, near a figure where the equations are dependent, so that branches may meet: seen in floats.
+        Singular = "singular",
+        /// The same, near a figure with t = 1 that can move: seen in floats.
+        Flexible = "flexible",
+        /// A figure grows, ever farther as far as one can see.
+        Infinite = "infinite",
+        /// A length, a radius or a vector that must not vanish goes to zero, or could not be proved not to do so.
+        Undefined = "undefined",
+        /// A drawn line or arc shrinks to nothing, or an arc grows to a whole circle, and would come out turned round.
+        Vanishes = "vanishes",
+        /// It cannot be told whether t is 1 somewhere, or whether two solutions are one, or congruent.
+        Undecided = "undecided",
+        /// A constraint that seemed to follow from the others does not.
+        Contradiction = "contradiction",
+        /// The equations of what was asked for cannot be made, or are others than those that were followed.
+        Refused = "refused",
+        /// The path was proved the other way from the sketch, not this one.
+        OtherWay = "other_way",
+        /// Something that must not happen: a bug in krawl.
+        Bug = "bug",
     }
 }
 
