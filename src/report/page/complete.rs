@@ -2,7 +2,7 @@
 //! search had others, in the search's own.
 
 use super::reader::Reader;
-use super::{Figure, Page, ShowError, Text, Tone};
+use super::{Figure, Page, ShowError, Tone};
 use crate::blocks::rounded_up;
 use crate::report::document::All;
 
@@ -21,7 +21,7 @@ pub(super) fn page(reader: &Reader, all: &All) -> Result<Page, ShowError> {
         _ => ("proved in part", Tone::Stopped),
     });
     page.verdict = all.verdict.clone();
-    let searched = match &all.method[..] {
+    page.say(match &all.method[..] {
         "coordinates" => {
             "All figures with these dimensions were searched, on every path and on none: the coordinates of the points, and \
              what else the constraints need, were divided into boxes, and in each box that is not listed here it is proved \
@@ -35,12 +35,9 @@ pub(super) fn page(reader: &Reader, all: &All) -> Result<Page, ShowError> {
              construction plan were divided into boxes, and in each box that is not listed here it is proved that \
              there is no solution. Figures that can be moved or mirrored into one another are listed once."
         }
-    };
-    page.text = vec![Text::Paragraph(searched.into())];
-    page.rows = vec![
-        ("driving parameters".into(), all.driving.to_string()),
-        ("boxes".into(), all.boxes.to_string()),
-        ("seconds".into(), format!("{:.4}", all.seconds)),
-    ];
+    });
+    page.row("driving parameters", all.driving);
+    page.row("boxes", all.boxes);
+    page.row("seconds", format!("{:.4}", all.seconds));
     Ok(page)
 }

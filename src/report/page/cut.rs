@@ -28,41 +28,33 @@ pub(super) fn page(reader: &Reader, result: &Figures) -> Result<Page, ShowError>
         });
     }
     let blocks = &result.blocks;
-    page.text = vec![Text::Paragraph(
+    page.say(
         "The sketch's equations fall apart into blocks, which are solved in order, each with those that it needs where they \
          are. A block of linear equations, of one unknown, or of two as circles and lines make them is solved by formula; \
          the path of any other is followed. The box of each figure holds exactly one that meets all constraints, but for those that \
-         the verdict says are left out."
-            .into(),
-    )];
+         the verdict says are left out.",
+    );
     if !blocks.is_empty() {
-        page.text
-            .push(Text::List(blocks.iter().map(block).collect()));
+        let blocks = blocks.iter().map(block);
+        page.text.push(Text::List(blocks.collect()));
     }
     if let Some(reason) = &result.reason {
-        page.text
-            .push(Text::Paragraph(format!("Why there may be more: {reason}.")));
+        page.say(format!("Why there may be more: {reason}."));
     }
     let shown = result.figures.len();
-    page.rows = vec![
-        ("blocks".into(), blocks.len().to_string()),
-        (
-            "figures".into(),
-            match result.count {
-                Some(count) if count == shown as u64 => count.to_string(),
-                Some(count) => format!("{count}, {shown} of them here (`--all`: all)"),
-                None => format!("more than 2^64, {shown} of them here"),
-            },
-        ),
-    ];
+    page.row("blocks", blocks.len());
+    let figures = match result.count {
+        Some(count) if count == shown as u64 => count.to_string(),
+        Some(count) => format!("{count}, {shown} of them here (`--all`: all)"),
+        None => format!("more than 2^64, {shown} of them here"),
+    };
+    page.row("figures", figures);
     if let Some(kept) = result.senses.as_ref().and_then(|senses| senses.kept) {
-        let label = "figures with all senses of the sketch".to_owned();
-        page.rows.push((label, kept.to_string()));
+        page.row("figures with all senses of the sketch", kept);
     }
     let free = result.account.names_held();
     if !free.is_empty() {
-        let label = "free, held as drawn".to_owned();
-        page.rows.push((label, free.join(", ")));
+        page.row("free, held as drawn", free.join(", "));
     }
     Ok(page)
 }

@@ -1,7 +1,7 @@
 //! The page of an edit: the figure before and after.
 
 use super::reader::{Reader, circles, digits, middle, shown};
-use super::{Figure, Page, ShowError, Text, Tone};
+use super::{Figure, Page, ShowError, Tone};
 use crate::report::document::Edit;
 
 pub(super) fn page(reader: &Reader, edit: &Edit) -> Result<Page, ShowError> {
@@ -33,32 +33,25 @@ pub(super) fn page(reader: &Reader, edit: &Edit) -> Result<Page, ShowError> {
             ..reader.figure(&edit.points, &circles(&radii))?
         });
     }
-    page.text = vec![Text::Paragraph(
-        match &edit.status[..] {
-            "reached" => {
-                "The dimensions were led from the old values to the new ones together, with proof: all the way there is \
-                 exactly one figure that continues the old one, and none of them is singular. So it cannot have \
-                 flipped into another figure with the same dimensions."
-            }
-            "limit" => {
-                "The dimensions were led towards the new values, with proof: up to the figure shown there is exactly \
-                 one that continues the old one, and beyond it there is none. There it can move for an instant with \
-                 all its dimensions as they are."
-            }
-            _ => {
-                "The new values were not reached, so the figure stays what it was. What is said above is as far as \
-                 the proof got."
-            }
+    page.say(match &edit.status[..] {
+        "reached" => {
+            "The dimensions were led from the old values to the new ones together, with proof: all the way there is \
+             exactly one figure that continues the old one, and none of them is singular. So it cannot have \
+             flipped into another figure with the same dimensions."
         }
-        .to_owned(),
-    )];
-    page.rows = [
-        ("orientations kept, proved", edit.kept.len().to_string()),
-        ("not proved to be kept", edit.lost.len().to_string()),
-        ("tubes", edit.tubes.to_string()),
-        ("seconds", format!("{:.6}", edit.seconds)),
-    ]
-    .map(|(label, value)| (label.to_owned(), value))
-    .into();
+        "limit" => {
+            "The dimensions were led towards the new values, with proof: up to the figure shown there is exactly \
+             one that continues the old one, and beyond it there is none. There it can move for an instant with \
+             all its dimensions as they are."
+        }
+        _ => {
+            "The new values were not reached, so the figure stays what it was. What is said above is as far as \
+             the proof got."
+        }
+    });
+    page.row("orientations kept, proved", edit.kept.len());
+    page.row("not proved to be kept", edit.lost.len());
+    page.row("tubes", edit.tubes);
+    page.row("seconds", format!("{:.6}", edit.seconds));
     Ok(page)
 }

@@ -1,7 +1,7 @@
 //! The page of `explore`: every solution found, with the path that found it first.
 
 use super::reader::{Reader, nothing};
-use super::{Figure, Page, ShowError, Text, Tone, path};
+use super::{Figure, Page, ShowError, Tone, path};
 use crate::report::document::{Explored, wrong};
 use std::collections::BTreeMap;
 
@@ -52,24 +52,19 @@ pub(super) fn page(reader: &Reader, result: &Explored) -> Result<Page, ShowError
         false => ("each proved; there may be more", Tone::Observed),
     });
     page.verdict = result.verdict.clone();
-    page.text = vec![
-        Text::Paragraph(
-            "From every solution found, the branches of a construction plan give new sketches, and the path through each \
-             was followed with proof. A solution of the list lies within the digits shown, alone, and no two are \
-             congruent. The path is the one that found the solution first."
-                .into(),
-        ),
-        Text::Paragraph(match page.paths.is_empty() {
-            true => "Paths are drawn where they are asked for: `krawl explore` with `--html`, or `--json` with \
-                     `--samples N`."
-                .into(),
-            false => "The pictures are drawn from the tubes that were proved; they are pictures, the digits are the \
-                      result."
-                .into(),
-        }),
-    ];
+    page.say(
+        "From every solution found, the branches of a construction plan give new sketches, and the path through each \
+         was followed with proof. A solution of the list lies within the digits shown, alone, and no two are \
+         congruent. The path is the one that found the solution first.",
+    );
+    page.say(match page.paths.is_empty() {
+        true => "Paths are drawn where they are asked for: `krawl explore` with `--html`, or `--json` with \
+                 `--samples N`.",
+        false => "The pictures are drawn from the tubes that were proved; they are pictures, the digits are the \
+                  result.",
+    });
     let counts = &result.counts;
-    page.rows = [
+    for (label, value) in [
         ("paths followed", Some(counts.followed)),
         ("of these closed", Some(counts.closed)),
         ("stopped", Some(counts.stopped)),
@@ -80,9 +75,8 @@ pub(super) fn page(reader: &Reader, result: &Explored) -> Result<Page, ShowError
             Some(result.ways),
         ),
         ("real solutions, proved to be all", result.all_real),
-    ]
-    .into_iter()
-    .filter_map(|(label, value)| Some((label.to_owned(), value?.to_string())))
-    .collect();
+    ] {
+        value.into_iter().for_each(|value| page.row(label, value));
+    }
     Ok(page)
 }

@@ -216,6 +216,16 @@ impl Page {
         (self.badge, self.tone) = (badge.into(), tone);
     }
 
+    /// A paragraph more.
+    fn say(&mut self, words: impl Into<String>) {
+        self.text.push(Text::Paragraph(words.into()));
+    }
+
+    /// A number of the run more.
+    fn row(&mut self, label: &str, value: impl ToString) {
+        self.rows.push((label.to_owned(), value.to_string()));
+    }
+
     /// The page, as the text of one file.
     ///
     /// # Panics

@@ -46,10 +46,8 @@ pub(super) fn page(reader: &Reader, motion: &Motion) -> Result<Page, ShowError> 
             _ => format!("{name} is not told"),
         });
     }
-    page.text = vec![
-        Text::Paragraph("Between which bounds it stays, proved:".into()),
-        Text::List(ranges),
-    ];
+    page.say("Between which bounds it stays, proved:");
+    page.text.push(Text::List(ranges));
     page.paths.extend(path(&name, samples, Vec::new()));
     Ok(page)
 }

@@ -69,21 +69,18 @@ pub(super) fn page(reader: &Reader, limits: &Limits) -> Result<Page, ShowError> 
                 ..reader.figure(points, &nothing())?
             });
         }
-        page.rows.push((
-            name.clone(),
-            format!("is {}; from {}", digits(range.value), values.join(" to ")),
-        ));
+        let (now, values) = (digits(range.value), values.join(" to "));
+        page.row(name, format!("is {now}; from {values}"));
     }
     page.rate(match all {
         true => ("proved", Tone::Proved),
         false => ("proved in part", Tone::Stopped),
     });
-    page.text = vec![Text::Paragraph(
+    page.say(
         "Each dimension was moved alone, both ways, with proof: between the figure of the file and a limit there is \
          exactly one figure for every value, and beyond the limit it has no continuation. At a limit the figure can \
-         move for an instant with all dimensions as they are."
-            .into(),
-    )];
+         move for an instant with all dimensions as they are.",
+    );
     if !words.is_empty() {
         page.text.push(Text::List(words));
     }

@@ -31,11 +31,11 @@ pub(super) fn page(reader: &Reader, run: &Solve) -> Result<Page, ShowError> {
         let widths = run.solutions.iter().map(|s| path::width(&s.points));
         accuracy.figures = std::iter::once(None).chain(widths).collect();
     }
-    page.text = words(run, closed, open);
+    explain(&mut page, run, closed, open);
     if mode != "certified" {
         page.digits = reader.gauge();
     }
-    page.rows = rows(reader, run);
+    tell(&mut page, reader, run);
     Ok(page)
 }
 
@@ -64,44 +64,29 @@ pub(super) fn blocks(reader: &Reader, run: &Solve, blocks: &Blocks) -> Result<Pa
             ..reader.figure(points, &nothing())?
         });
     }
-    page.text = vec![
-        Text::Paragraph(
-            "The problem falls apart into blocks that share no more than a side (in space: a triangle of sides). As a \
-             whole it could not be followed to the end, so the path of each block was, and the solutions of the blocks are \
-             put together in every way, as they are or mirrored in the side by which they hang together."
-                .into(),
-        ),
-        Text::List(
-            blocks
-                .runs
-                .iter()
-                .filter_map(|run| match &run.own {
-                    Verb::Solve(own) => {
-                        Some(format!("{}: {}", run.drawing.names.join(", "), own.verdict))
-                    }
-                    _ => None,
-                })
-                .collect(),
-        ),
-    ];
+    page.say(
+        "The problem falls apart into blocks that share no more than a side (in space: a triangle of sides). As a \
+         whole it could not be followed to the end, so the path of each block was, and the solutions of the blocks are \
+         put together in every way, as they are or mirrored in the side by which they hang together.",
+    );
+    let runs = blocks.runs.iter().filter_map(|run| match &run.own {
+        Verb::Solve(own) => Some(format!("{}: {}", run.drawing.names.join(", "), own.verdict)),
+        _ => None,
+    });
+    page.text.push(Text::List(runs.collect()));
     if let Some(reason) = &run.reason {
-        page.text
-            .push(Text::Paragraph(format!("Why the whole stopped: {reason}.")));
+        page.say(format!("Why the whole stopped: {reason}."));
     }
     let shown = page.figures.len() - 1;
-    page.rows = vec![
-        ("blocks".into(), blocks.runs.len().to_string()),
-        (
-            "figures".into(),
-            match blocks.count {
-                Some(count) if count > listed => {
-                    format!("{count}, the first {shown} of them here (`--all`: all)")
-                }
-                Some(count) => count.to_string(),
-                None => format!("more than 2^64, the first {shown} of them here"),
-            },
-        ),
-    ];
+    page.row("blocks", blocks.runs.len());
+    let figures = match blocks.count {
+        Some(count) if count > listed => {
+            format!("{count}, the first {shown} of them here (`--all`: all)")
+        }
+        Some(count) => count.to_string(),
+        None => format!("more than 2^64, the first {shown} of them here"),
+    };
+    page.row("figures", figures);
     Ok(page)
 }
 
@@ -131,58 +116,55 @@ fn solution(reader: &Reader, k: usize, solution: &Solution) -> Result<Figure, Sh
     })
 }
 
-fn rows(reader: &Reader, run: &Solve) -> Vec<(String, String)> {
-    let mut rows = Vec::new();
-    let mut row = |label: &str, value: String| rows.push((label.to_owned(), value));
+/// The numbers of the run.
+fn tell(page: &mut Page, reader: &Reader, run: &Solve) {
     let shown = |x: Option<f64>| match x.filter(|x| x.is_finite()) {
         Some(x) => format!("{x:.6}"),
         None => "?".to_owned(),
     };
-    row("mode, space", format!("{}, {}", run.mode, run.space));
-    row(
+    page.row("mode, space", format!("{}, {}", run.mode, run.space));
+    page.row(
         "steps, rejected",
         format!("{}, {}", run.steps, run.rejected),
     );
-    row("length of the path", shown(run.length));
+    page.row("length of the path", shown(run.length));
     let known = |bound: Bound, x: Option<f64>| match x.filter(|x| x.is_finite()) {
         Some(x) => bound.decimals(x, 6),
         None => "?".to_owned(),
     };
     let [low, high] = run.t_range;
     let (low, high) = (known(Bound::Lower, low), known(Bound::Upper, high));
-    row("range of t", format!("{low} to {high}"));
-    row("seconds", shown(Some(run.seconds)));
+    page.row("range of t", format!("{low} to {high}"));
+    page.row("seconds", shown(Some(run.seconds)));
     if let Some(bend) = &run.options.bend {
         let c = &run.options.bend_coefficient;
-        row("bend", format!("{}, c = {c}", bend.join("-")));
+        page.row("bend", format!("{}, c = {c}", bend.join("-")));
     }
     for text in &run.switched_on {
-        row("switched on", text.clone());
+        page.row("switched on", text);
     }
-    row("written by", format!("krawl {}", reader.drawing.krawl));
+    page.row("written by", format!("krawl {}", reader.drawing.krawl));
     if !reader.drawing.source.is_empty() {
-        row("source", reader.drawing.source.clone());
+        page.row("source", &reader.drawing.source);
     }
-    rows
 }
 
 /// The answer explained.
-fn words(run: &Solve, closed: bool, open: bool) -> Vec<Text> {
+fn explain(page: &mut Page, run: &Solve, closed: bool, open: bool) {
     let mode = &run.mode[..];
-    let paragraph = |text: &str| Text::Paragraph(text.to_owned());
-    let mut out = vec![paragraph(
+    page.say(
         "The sketch's dimensions are led to the wanted ones together: t = 0 is the sketch, and at t = 1 all \
          dimensions are what they should be. As they change the figure moves along a path; wherever that \
          path meets t = 1 there is a solution. Solutions of one colour are congruent: the same figure, or \
          its mirror image.",
-    )];
+    );
     let is_flat = run.solutions.iter().any(|solution| solution.degenerate);
     match (mode, closed) {
         ("certified", true) => {
-            out.push(paragraph(
+            page.say(
                 "What is proved, for the exact decimals of the problem and with every rounding accounted for:",
-            ));
-            out.push(Text::List(vec![
+            );
+            page.text.push(Text::List(vec![
                 "The path through the sketch is a closed curve, regular along its whole length, and it was \
                  followed all the way round: no step jumped to another curve."
                     .into(),
@@ -191,32 +173,31 @@ fn words(run: &Solve, closed: bool, open: bool) -> Vec<Text> {
                     .into(),
                 "All lengths stay positive along the path.".into(),
             ]));
-            out.push(paragraph(
+            page.say(
                 "Other solutions may exist on other paths. The pictures are drawn from the tubes that were \
                  proved; they are pictures, the digits are the result.",
-            ));
+            );
         }
-        ("certified", false) if open => out.push(paragraph(
+        ("certified", false) if open => page.say(
             "The path seems to have two ends, beyond which it was not followed. What is proved is about the arc between them: it is \
              regular, no step jumped, and the solutions listed are exactly those on it, each alone within the digits shown.",
-        )),
-        ("certified", false) => out.push(paragraph(
+        ),
+        ("certified", false) => page.say(
             "The run stopped before it came back to the sketch. The solutions listed are proved, each alone \
              within the digits shown; there may be more on the rest of the path.",
-        )),
-        _ => out.push(paragraph(
+        ),
+        _ => page.say(
             "This run was made in floating-point arithmetic: what it says is observed, not proved.",
-        )),
+        ),
     }
     if is_flat && mode == "certified" {
-        out.push(paragraph(
+        page.say(
             "This is different at solutions that are degenerate (flat): there the path is regular in the equations with heights \
              divided by 1 − t, not in the given ones, and other flat figures that meet the constraints are as near as one likes. On \
              the path are only those listed.",
-        ));
+        );
     }
     if let Some(reason) = &run.reason {
-        out.push(Text::Paragraph(format!("Why it stopped: {reason}.")));
+        page.say(format!("Why it stopped: {reason}."));
     }
-    out
 }

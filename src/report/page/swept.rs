@@ -1,7 +1,7 @@
 //! The page of a sweep: the mechanism at every value of the dimension that drives it, the frames being the path.
 
 use super::reader::{Reader, digits, middle, nothing};
-use super::{Figure, Level, Page, Path, Sample, ShowError, Text, Tone};
+use super::{Figure, Level, Page, Path, Sample, ShowError, Tone};
 use crate::report::document::{Dimension, Sweep, wrong};
 
 pub(super) fn page(reader: &Reader, sweep: &Sweep) -> Result<Page, ShowError> {
@@ -56,11 +56,11 @@ pub(super) fn page(reader: &Reader, sweep: &Sweep) -> Result<Page, ShowError> {
             ..reader.figure(&end.edit.points, &nothing())?
         });
     }
-    page.text = vec![Text::Paragraph(format!(
+    page.say(format!(
         "The slider drives {name}. Between two frames too the figure is the one and only continuation, without \
          a turn back: what is drawn there is drawn straight from one frame to the next."
-    ))];
-    page.rows = vec![("frames".into(), frames.len().to_string())];
+    ));
+    page.row("frames", frames.len());
     page.paths.extend(path(name, samples, levels));
     Ok(page)
 }
