@@ -247,8 +247,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
         && edited.ending == Ending::Reached
     {
         let (points, objects) = (session.figure(), session.objects());
-        let mut changed = loaded.problem.clone();
-        given.iter().for_each(|setting| setting.apply(&mut changed));
+        let mut changed = Setting::applied(&given, &loaded.problem);
         changed.parameters = asked.parameters;
         let bytes = loaded.rewritten(file, &changed, &points, &objects);
         let bytes = bytes.map_err(|e| in_file(&e))?;

@@ -151,8 +151,7 @@ fn write(
     (session, given): (&Session, &[Setting]),
     (folder, row): (&Path, usize),
 ) -> Result<bool, String> {
-    let mut changed = loaded.problem.clone();
-    given.iter().for_each(|setting| setting.apply(&mut changed));
+    let changed = Setting::applied(given, &loaded.problem);
     let (points, objects) = (session.figure(), session.objects());
     let bytes = loaded.rewritten(&arguments.source.file, &changed, &points, &objects)?;
     let file = &arguments.source.file;

@@ -49,8 +49,7 @@ impl File {
         let (points, objects) = (session.figure(), session.objects());
         let radius = |object: &Located| object.number().map_or(0.0, |radius| radius.mid());
         let radii: Vec<f64> = objects.iter().map(radius).collect();
-        let mut changed = self.problem.clone();
-        setting[0].apply(&mut changed);
+        let changed = Setting::applied(&setting, &self.problem);
         let bytes = match &self.imported {
             Some(imported) => {
                 let figure = Figure {

@@ -110,11 +110,7 @@ fn angles_written_back_go_on_from_where_they_are() {
             Ending::Reached,
             "{value}"
         );
-        let mut changed = problem;
-        asked
-            .given
-            .iter()
-            .for_each(|setting| setting.apply(&mut changed));
+        let changed = Setting::applied(&asked.given, &problem);
         let figure = session.figure();
         (rewrite(text, &changed, &figure, &[]).unwrap(), figure[2])
     };

@@ -87,8 +87,7 @@ pub fn variables(
 pub fn followed(imported: &Imported, places: &Places, now: &Problem, set: &[Setting]) -> Followed {
     let (numbers, before) = (&places.computed, &imported.problem);
     let is_set = |index: usize| set.iter().any(|setting| setting.index == index);
-    let mut then = now.clone();
-    set.iter().for_each(|setting| setting.apply(&mut then));
+    let then = Setting::applied(set, now);
     let mut evaluation = evaluation(imported, places, &then, is_set);
     let mut followed = Followed::default();
     let is_external = |point: &Point| point.name.starts_with("external");

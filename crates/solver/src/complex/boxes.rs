@@ -175,11 +175,7 @@ mod tests {
     use super::*;
 
     fn around(parts: &[f64], radius: f64, alone: f64) -> SolutionBox {
-        let figure = Figure {
-            centre: parts.to_vec(),
-            low: vec![0.0; parts.len()],
-            radius: vec![radius; parts.len()],
-        };
+        let figure = Figure::around(parts.to_vec(), vec![radius; parts.len()]);
         SolutionBox::new(figure, alone)
     }
 

@@ -55,8 +55,7 @@ pub fn alone(problem: &Problem, options: &Options, control: &mut Control) -> Vec
         if meet(drawn.value(), wanted.value()) {
             continue;
         }
-        let mut others = problem.clone();
-        drawn.apply(&mut others);
+        let others = Setting::applied(&[drawn], problem);
         let Ok(mut session) = Session::open_with(&others, options, control) else {
             continue;
         };

@@ -4,8 +4,8 @@ use super::drag::Dragged;
 use crate::blocks::{Account, Singular};
 use crate::interval::Interval;
 use crate::system::Located;
-use crate::track::Stop;
 use crate::track::arc::Orientation;
+use crate::track::{Stop, StopKind};
 
 crate::named! {
     /// How an edit ended.
@@ -152,6 +152,13 @@ impl Astray {
             "other figures on the way: at t = {:.6}, {}",
             self.t.1, self.stop
         )
+    }
+}
+
+impl Ending {
+    /// Whether the proof ended at a constraint that contradicts others.
+    pub(super) fn is_contradiction(&self) -> bool {
+        matches!(self, Ending::Stopped(stop) if stop.kind == StopKind::Contradiction)
     }
 }
 

@@ -12,7 +12,7 @@ use crate::interval::Interval;
 use crate::places::Each as _;
 use crate::problem::Problem;
 use crate::system::Located;
-use crate::track::{Control, Options, StartError, StopKind};
+use crate::track::{Control, Options, StartError};
 
 /// A figure that meets its dimensions, and what follows edits of it; set up once for all of them.
 ///
@@ -166,8 +166,7 @@ impl Session {
     fn looked_at(&self, mut edited: Edited, if_reached: bool) -> Edited {
         let is_told = match &edited.ending {
             Ending::Reached => !if_reached,
-            Ending::Stopped(stop) => stop.kind == StopKind::Contradiction,
-            Ending::Limit(_) | Ending::Passes(_) => false,
+            ending => ending.is_contradiction(),
         };
         let Some(astray) = edited.astray.clone() else {
             return edited;

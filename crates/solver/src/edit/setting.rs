@@ -202,6 +202,16 @@ impl Setting {
         }
     }
 
+    /// A problem with dimensions set.
+    ///
+    /// # Panics
+    /// If the problem does not have one of them.
+    pub fn applied(settings: &[Self], problem: &Problem) -> Problem {
+        let mut changed = problem.clone();
+        settings.iter().for_each(|one| one.apply(&mut changed));
+        changed
+    }
+
     /// An enclosure of the value.
     pub(super) fn value(&self) -> Interval {
         self.target.enclose()
@@ -269,12 +279,7 @@ impl Setting {
             let name = problem.dimension_name(index);
             return Err(SettingError::Computed(name, expression.to_owned()));
         }
-        let length = value.parse::<Decimal>();
-        let length = length.map_err(|error| SettingError::Number {
-            name: name.to_owned(),
-            error,
-        })?;
-        Self::new(problem, index, length)
+        Self::new(problem, index, read(value, || name.to_owned())?)
     }
 
     /// The index of the dimension of that name: its label, if it has one; `a-b` or `b-a` for a distance; for another
@@ -326,6 +331,15 @@ pub(super) fn is_led_alone(problem: &Problem, name: &str) -> bool {
     own.is_some()
         && !dimensions.any(|index| number(problem, index).is_some_and(has))
         && !parameters.any(|(_, value)| has(value))
+}
+
+/// The number that a dimension or parameter is set to, from a text.
+pub(super) fn read(text: &str, name: impl FnOnce() -> String) -> Result<Decimal, SettingError> {
+    let number = text.parse();
+    number.map_err(|error| SettingError::Number {
+        name: name(),
+        error,
+    })
 }
 
 /// What a turn is at t on its way: θ and four times the argument of `1 + (e^iΔ/4 − 1) t`, as its equations lead it.

@@ -59,11 +59,12 @@ impl Session {
         if sweep.approach.ending != Ending::Reached {
             return sweep;
         }
-        sweep.frames.push(Frame {
-            value: self.length(index),
-            points: self.points(),
-            objects: self.objects(),
-        });
+        let frame = |session: &Self| Frame {
+            value: session.length(index),
+            points: session.points(),
+            objects: session.objects(),
+        };
+        sweep.frames.push(frame(self));
         for k in 1..frames {
             let value = between(from, to, k, frames - 1);
             let edited = self.lead(&set(value), control);
@@ -72,11 +73,7 @@ impl Session {
                 break;
             }
             sweep.account.join(&edited.account);
-            sweep.frames.push(Frame {
-                value: self.length(index),
-                points: edited.points,
-                objects: edited.objects,
-            });
+            sweep.frames.push(frame(self));
         }
         sweep
     }

@@ -183,10 +183,7 @@ impl Whole {
         if self.arcs.homotopy().tail.is_empty() {
             return Ok(None);
         }
-        let mut edited = self.problem.clone();
-        for setting in settings {
-            setting.apply(&mut edited);
-        }
+        let edited = Setting::applied(settings, &self.problem);
         let homotopy = self.arcs.homotopy_mut();
         let lowered = super::lowered(&edited, |edited| {
             try_lower_editable(edited, self.record.as_ref())
@@ -273,11 +270,7 @@ impl Way for Whole {
     fn limit(&self, fold: &Fold, orientations: &[Orientation]) -> Limit {
         let homotopy = self.arcs.homotopy();
         let places = fold.figure.points(homotopy);
-        let velocity = Figure {
-            centre: fold.velocity.clone(),
-            low: vec![0.0; fold.velocity.len()],
-            radius: vec![0.0; fold.velocity.len()],
-        };
+        let velocity = Figure::around(fold.velocity.clone(), vec![0.0; fold.velocity.len()]);
         let velocity = velocity.points(homotopy);
         let d = homotopy.dimension;
         let turned = velocity.iter().map(|v| {

@@ -1,6 +1,6 @@
 //! Angles in the plane that are set beyond 0 or 180 degrees: followed as turns.
 
-use super::setting::{Setting, SettingError, is_led_alone, measure, number};
+use super::setting::{Setting, SettingError, is_led_alone, measure, number, read};
 use super::write::direction;
 use crate::constraint::{Arguments, LineName, Measure, is_opposite_nearer, order_of_kind};
 use crate::interval::Real;
@@ -80,11 +80,7 @@ impl Asked {
         for &(name, value) in named {
             let is_parameter = problem.parameters.iter().any(|(other, _)| other == name);
             if is_parameter && !is_dimension(name) {
-                let value = value.parse();
-                let value = value.map_err(|error| SettingError::Number {
-                    name: name.to_owned(),
-                    error,
-                })?;
+                let value = read(value, || name.to_owned())?;
                 if set.iter().any(|(other, _)| other == name) {
                     return Err(SettingError::Twice(name.to_owned()));
                 }
@@ -102,10 +98,7 @@ impl Asked {
                 })?,
             };
             indices.insert(name, index);
-            let value = value.parse().map_err(|error| {
-                let name = problem.dimension_name(index);
-                SettingError::Number { name, error }
-            })?;
+            let value = read(value, || problem.dimension_name(index))?;
             if !is_parameter
                 && let Some(expression) = number(problem, index).and_then(Decimal::expression)
             {

@@ -206,6 +206,11 @@ impl Tail {
     pub fn is_empty(&self) -> bool {
         self.equations.is_empty()
     }
+
+    /// The right-hand sides, in the order of the equations.
+    pub fn rights(&self) -> Vec<Vec<Real>> {
+        self.equations.iter().map(|e| e.right.clone()).collect()
+    }
 }
 
 /// The coordinate of a point.

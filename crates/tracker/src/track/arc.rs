@@ -18,14 +18,26 @@ pub struct Figure {
 }
 
 impl Figure {
+    /// A box by its middle, in floats, and how far the exact figure may be from it.
+    pub fn around(centre: Vec<f64>, radius: Vec<f64>) -> Self {
+        let low = vec![0.0; centre.len()];
+        Figure {
+            centre,
+            low,
+            radius,
+        }
+    }
+
+    /// A box by the ranges of its entries.
+    pub fn within(ranges: impl IntoIterator<Item = Interval>) -> Self {
+        let both = ranges.into_iter().map(|x| (x.mid(), x.rad()));
+        let (centre, radius) = both.unzip();
+        Self::around(centre, radius)
+    }
+
     /// The sketch as a box.
     pub fn of_sketch(homotopy: &Homotopy) -> Self {
-        let boxes = || homotopy.sketch_of_unknowns();
-        Figure {
-            centre: boxes().map(|x| x.mid()).collect(),
-            low: vec![0.0; homotopy.equations],
-            radius: boxes().map(|x| x.rad()).collect(),
-        }
+        Self::within(homotopy.sketch_of_unknowns())
     }
 
     /// An unknown, in the homotopy's unit.

@@ -110,8 +110,7 @@ impl Parts {
     /// and are used now; `None`: nothing else can be chosen, or the figure could not be led to it.
     fn choose_anew(&mut self, settings: &[Setting], control: &mut Control) -> Option<f64> {
         let lowered = try_lower_all(&self.cut.problem, Some(&self.cut.record)).ok()?;
-        let rights = lowered.tail.equations.into_iter().map(|e| e.right);
-        let rights = at_rest_all(&rights.collect::<Vec<_>>());
+        let rights = at_rest_all(&lowered.tail.rights());
         let is_driven = |owner: Whose| {
             let index = owner.index(&self.cut.problem);
             settings.iter().any(|setting| Some(setting.index) == index)

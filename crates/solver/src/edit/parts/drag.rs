@@ -98,35 +98,32 @@ impl Parts {
                 return Err(Stop::new(StopKind::Interrupted, "it was interrupted"));
             }
             let away = self.away(&wanted);
-            let near = self.nearest(&equations, &wanted, part);
-            let far = near.as_ref();
-            let far = far.map_or(f64::INFINITY, |(near, _)| self.far_from(near));
+            let (near, is_met) = self.nearest(&equations, &wanted, part);
+            let far = self.far_from(&near);
             if far < NEAR * size && part == 1.0 {
                 return Ok(());
             }
             let mut stop = None;
-            let found = near.and_then(|(near, is_met)| {
-                // A figure at the end of what can be reached is come near to by halves.
-                let steps = if is_met { &[1.0][..] } else { &[1.0, 0.5] };
-                let exact = if is_met && part == 1.0 {
-                    &wanted[..]
-                } else {
-                    &[]
-                };
-                steps.iter().find_map(|&step| {
-                    let mut there = self.clone();
-                    match there.leg(&equations, (&near, step), (&wanted, exact), control) {
-                        // Not to another figure with the same numbers, and not nowhere.
-                        Ok(leg) => {
-                            let is_nearer = there.far_from(&near) <= (1.0 - 0.5 * step) * far;
-                            is_nearer.then_some((there, leg))
-                        }
-                        Err(why) => {
-                            stop.get_or_insert(why);
-                            None
-                        }
+            // A figure at the end of what can be reached is come near to by halves.
+            let steps = if is_met { &[1.0][..] } else { &[1.0, 0.5] };
+            let exact = if is_met && part == 1.0 {
+                &wanted[..]
+            } else {
+                &[]
+            };
+            let found = steps.iter().find_map(|&step| {
+                let mut there = self.clone();
+                match there.leg(&equations, (&near, step), (&wanted, exact), control) {
+                    // Not to another figure with the same numbers, and not nowhere.
+                    Ok(leg) => {
+                        let is_nearer = there.far_from(&near) <= (1.0 - 0.5 * step) * far;
+                        is_nearer.then_some((there, leg))
                     }
-                })
+                    Err(why) => {
+                        stop.get_or_insert(why);
+                        None
+                    }
+                }
             });
             match found {
                 Some((there, (leg, names))) => {
@@ -208,12 +205,7 @@ impl Parts {
 
     /// A figure that meets all constraints, in floats, and has points this part of the way to where they are wanted, and whether one was found;
     /// or else one that has them nearer to that than they are, as near as is found.
-    fn nearest(
-        &self,
-        equations: &[Equation],
-        wanted: &[Wanted],
-        part: f64,
-    ) -> Option<(Vec<f64>, bool)> {
+    fn nearest(&self, equations: &[Equation], wanted: &[Wanted], part: f64) -> (Vec<f64>, bool) {
         let floats = Floats::new(&self.cut.system, equations, self.cut.unit);
         let rows: Vec<usize> = (0..self.cut.system.rows.len()).collect();
         let at = self.figure.centre.clone();
@@ -239,7 +231,7 @@ impl Parts {
             (jacobian, off)
         });
         if let Some(there) = exact {
-            return Some((there, true));
+            return (there, true);
         }
         let off = |at: &[f64]| {
             let off = wanted.iter().map(|w| (at[w.unknown] - goal(w)).powi(2));
@@ -257,7 +249,7 @@ impl Parts {
                 None => break,
             }
         }
-        Some((there, false))
+        (there, false)
     }
 
     /// A step of the way to a figure, on which what nothing determines is led straight to where it is there. `exact`: what is known exactly of

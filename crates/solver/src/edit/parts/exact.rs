@@ -5,7 +5,6 @@ use crate::constraint::{Entry, Nonzero};
 use crate::equations::{Form, Ring as _};
 use crate::interval::along::{Along, Quantifiable as _};
 use crate::interval::{Interval, Real, hull, point};
-use crate::places::array;
 use crate::system::{Segment, determinant, sign_of};
 use crate::track::arc::{Figure, Kept, Off, Orientation};
 use crate::track::{Stop, StopKind};
@@ -140,13 +139,9 @@ impl Parts {
                 continue;
             }
             let sign = |time: Interval| -> i8 {
-                let place = |k: usize| -> [Interval; 3] {
-                    array(|axis| match axis < d {
-                        true => self.place_at(&paths, of[k * d + axis], time),
-                        false => point(0.0),
-                    })
-                };
-                let places: Vec<[Interval; 3]> = (0..points.len()).map(place).collect();
+                let at = |u: usize| self.place_at(&paths, u, time);
+                let places = points.iter().map(|&p| self.place(p, point(0.0), at));
+                let places: Vec<[Interval; 3]> = places.collect();
                 sign_of(determinant(points.len(), |k| places[k]))
             };
             let first = sign(point(0.0));
@@ -172,18 +167,13 @@ impl Parts {
         let mut out = Vec::new();
         for Segment { object, extent } in &self.segments {
             let (axes, points) = (self.axes(extent), extent.points());
-            let of: Vec<usize> = self.places(points, axes.clone()).collect();
+            let of: Vec<usize> = self.places(points, axes).collect();
             if !self.move_exactly(&of, exact) {
                 continue;
             }
             let sign = |time: Interval| {
-                let at = |k: usize| {
-                    array(|axis| match axes.contains(&axis) {
-                        true => self.place_at(&paths, self.cut.coordinate(points[k], axis), time),
-                        false => point(0.0),
-                    })
-                };
-                extent.sign(at, sign_of)
+                let at = |u: usize| self.place_at(&paths, u, time);
+                extent.sign(|k| self.place(points[k], point(0.0), at), sign_of)
             };
             let mut last = sign(point(0.0));
             let is_known = last != 0;

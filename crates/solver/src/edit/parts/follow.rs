@@ -109,31 +109,23 @@ impl Parts {
     fn groups(&self, moving: &[bool]) -> Vec<Vec<usize>> {
         let count = moving.len();
         let mut sets = Joined::new(count);
-        let mut taken: BTreeSet<usize> = (0..count)
-            .filter(|&b| moving[b] && !self.cut.is_exact[b])
-            .collect();
+        let is_open = |b: &usize| !self.cut.is_exact[*b];
+        let mut taken: BTreeSet<usize> = (0..count).filter(|&b| moving[b]).collect();
+        taken.retain(is_open);
         for of in &self.together {
             if !of.iter().any(|&b| moving[b]) {
                 continue;
             }
-            let of: Vec<usize> = of
-                .iter()
-                .copied()
-                .filter(|&b| !self.cut.is_exact[b])
-                .collect();
+            let of: Vec<usize> = of.iter().copied().filter(is_open).collect();
             sets.join_all(&of);
             taken.extend(of);
         }
         let with_needs = self.cut.blocks.with_needs(taken);
-        let not_exact: Vec<usize> = with_needs
-            .into_iter()
-            .filter(|&b| !self.cut.is_exact[b])
-            .collect();
+        let not_exact: Vec<usize> = with_needs.into_iter().filter(is_open).collect();
         for &b in &not_exact {
-            for &need in &self.cut.blocks.blocks[b].needs {
-                if !self.cut.is_exact[need] {
-                    sets.join([b, need]);
-                }
+            let needs = self.cut.blocks.blocks[b].needs.iter().copied();
+            for need in needs.filter(is_open) {
+                sets.join([b, need]);
             }
         }
         let mut groups: HashMap<usize, Vec<usize>> = HashMap::new();
@@ -153,28 +145,18 @@ impl Parts {
     ) -> PartRun {
         let mut blocks: Vec<usize> = group.to_vec();
         let taken = self.cut.blocks.with_needs(group.iter().copied());
+        let is_open = |b: &usize| taken.contains(b) && !self.cut.is_exact[*b];
         for of in &self.together {
-            if of
-                .iter()
-                .any(|b| taken.contains(b) && !self.cut.is_exact[*b])
-            {
+            if of.iter().any(is_open) {
                 blocks.extend(of);
             }
         }
         let blocks = self.cut.blocks.with_needs(blocks);
-        let unknowns: Vec<usize> = blocks
-            .iter()
-            .flat_map(|&b| self.cut.blocks.blocks[b].unknowns.iter().copied())
-            .collect();
-        let used: Vec<Used> = blocks
-            .iter()
-            .flat_map(|&b| {
-                self.cut.blocks.blocks[b]
-                    .equations
-                    .iter()
-                    .map(|&e| self.cut.used[e])
-            })
-            .collect();
+        let all = || blocks.iter().map(|&b| &self.cut.blocks.blocks[b]);
+        let unknowns = all().flat_map(|block| block.unknowns.iter().copied());
+        let unknowns: Vec<usize> = unknowns.collect();
+        let equations = all().flat_map(|block| &block.equations);
+        let used: Vec<Used> = equations.map(|&e| self.cut.used[e]).collect();
         if unknowns.len() > LARGEST_SQUARE {
             let reason = format!(
                 "a part has {} unknowns, more than the {LARGEST_SQUARE} of which proofs keep square matrices",

@@ -1,7 +1,7 @@
 //! Constraints that are left out because they follow from others at the figure: by proof, or as far as floats tell.
 
 use super::{Parts, Used, moves};
-use crate::blocks::{Given, Row, Verdict, combination, rounded_down};
+use crate::blocks::{Given, Row, Ruler, Verdict, combination, rounded_down};
 use crate::interval::{Interval, Real, point};
 use crate::system::Right;
 use crate::track::arc::Figure;
@@ -82,11 +82,14 @@ impl Parts {
             }
             let unit = point(self.scale(self.cut.system.rows[row].index));
             let (miss, right) = self.sides(row, figure, rights, time);
-            self.cut
-                .ruler(k, self.options.redundant_tolerance)
-                .verdict(miss * unit, right * unit)
+            self.ruler(k).verdict(miss * unit, right * unit)
         })
         .collect()
+    }
+
+    /// How what was left out is measured.
+    pub(super) fn ruler(&self, redundant: usize) -> Ruler {
+        self.cut.ruler(redundant, self.options.redundant_tolerance)
     }
 
     /// By what a figure misses a row, and its right-hand side, in the homotopy's unit. `time`: t there, where that is not 1.

@@ -145,16 +145,10 @@ impl Parts {
         plain.constraints.truncate(asked.constraints.len());
         let plain = (!contacts.is_empty()).then(|| Box::new(plain));
         let values = system.unknowns.iter().zip(&system.values);
-        let none = vec![0.0; values.len()];
-        let mut figure = Figure {
-            centre: none.clone(),
-            low: none.clone(),
-            radius: none,
-        };
-        for (u, (unknown, value)) in values.enumerate() {
+        let figure = Figure::within(values.map(|(unknown, value)| {
             let scale = unit.powi(unknown.power);
-            put(&mut figure, u, value.enclose() * point(1.0 / scale));
-        }
+            value.enclose() * point(1.0 / scale)
+        }));
         let mut parts = Parts {
             senses: senses::senses(asked),
             followed: senses::followed(asked),
@@ -235,6 +229,14 @@ impl Parts {
         each.map(|(p, axis)| self.cut.coordinate(p, axis))
     }
 
+    /// A point's coordinates, of unknowns that are told; along an axis that is not there it is at `zero`.
+    fn place<T: Copy>(&self, p: usize, zero: T, unknown: impl Fn(usize) -> T) -> [T; 3] {
+        array(|axis| match axis < self.cut.problem.dimension {
+            true => unknown(self.cut.coordinate(p, axis)),
+            false => zero,
+        })
+    }
+
     /// The axes along which the points of a line or an arc tell whether it vanishes.
     fn axes(&self, extent: &Extent) -> Range<usize> {
         match *extent {
@@ -278,10 +280,7 @@ impl Parts {
     /// Follows the figure as its dimensions change.
     fn continued(&mut self, settings: &[Setting], keep: Keep, control: &mut Control) -> Edited {
         let clock = Instant::now();
-        let mut problem = self.cut.problem.clone();
-        for setting in settings {
-            setting.apply(&mut problem);
-        }
+        let problem = Setting::applied(settings, &self.cut.problem);
         let mut astray = None;
         let (edited, reached) = match lowered(&problem, |problem| {
             try_lower_all(problem, Some(&self.cut.record))
@@ -294,12 +293,7 @@ impl Parts {
                 )
             }
             Ok(lowered) => {
-                let rights: Vec<Vec<Real>> = lowered
-                    .tail
-                    .equations
-                    .into_iter()
-                    .map(|e| e.right)
-                    .collect();
+                let rights = lowered.tail.rights();
                 let mut run = match self.unmovable(&rights) {
                     Some(what) => ArcRun::stopped(Stop::new(StopKind::Contradiction, what)),
                     None => self.follow(&rights, control),
@@ -440,14 +434,9 @@ impl Way for Parts {
     }
 
     fn points_of(&self, figure: &Figure) -> Vec<[Interval; 3]> {
-        let (d, unit) = (self.cut.problem.dimension, point(self.cut.unit));
-        let coordinate = |p: usize, axis: usize| match axis < d {
-            true => figure.enclosure(self.cut.coordinate(p, axis)) * unit,
-            false => point(0.0),
-        };
-        (0..self.cut.problem.points.len())
-            .map(|p| array(|axis| coordinate(p, axis)))
-            .collect()
+        let unit = point(self.cut.unit);
+        let place = |p| self.place(p, point(0.0), |u| figure.enclosure(u) * unit);
+        (0..self.cut.problem.points.len()).map(place).collect()
     }
 
     fn objects_of(&self, figure: &Figure) -> Vec<Located> {
@@ -464,18 +453,10 @@ impl Way for Parts {
     }
 
     fn limit(&self, fold: &Fold, orientations: &[Orientation]) -> Limit {
-        let d = self.cut.problem.dimension;
-        let motion = (0..self.cut.problem.points.len()).map(|p| {
-            array(|axis| match axis < d {
-                true => fold.velocity[self.cut.coordinate(p, axis)],
-                false => 0.0,
-            })
-        });
-        Limit::new(
-            &self.points_of(&fold.figure),
-            orientations,
-            motion.collect(),
-        )
+        let points = 0..self.cut.problem.points.len();
+        let motion = points.map(|p| self.place(p, 0.0, |u| fold.velocity[u]));
+        let places = self.points_of(&fold.figure);
+        Limit::new(&places, orientations, motion.collect())
     }
 
     fn account(&self) -> Account {
@@ -507,10 +488,7 @@ impl Way for Parts {
     /// Changes dimensions by a path, and where a figure that is singular itself has none, by a figure moved off that place.
     fn edit(&mut self, settings: &[Setting], keep: Keep, control: &mut Control) -> Edited {
         let edited = self.follow_to(settings, keep, control);
-        let is_contradiction = matches!(
-            &edited.ending, Ending::Stopped(stop) if stop.kind == StopKind::Contradiction
-        );
-        match is_contradiction && self.is_singular() {
+        match edited.ending.is_contradiction() && self.is_singular() {
             true => self.moved_off(settings, keep, control).unwrap_or(edited),
             false => edited,
         }

@@ -98,10 +98,7 @@ impl Parts {
         control: &mut Control,
     ) -> Option<Edited> {
         let clock = Instant::now();
-        let mut changed = self.problem().clone();
-        settings
-            .iter()
-            .for_each(|setting| setting.apply(&mut changed));
+        let changed = Setting::applied(settings, self.problem());
         let parts = Self::open(&changed, &self.options, control).ok()?;
         parts.cut.singular.as_ref()?.moved?;
         let dimensions = settings.iter().map(|setting| Dimension {

@@ -102,11 +102,7 @@ impl Parts {
     ) -> (Verdict, Option<((f64, f64), Stop)>) {
         let unit = point(self.scale(self.cut.left_out(redundant).index));
         let right = self.right_until(redundant, end, rights);
-        let verdict = |off: Interval| {
-            self.cut
-                .ruler(redundant, self.options.redundant_tolerance)
-                .verdict(off * unit, right * unit)
-        };
+        let verdict = |off: Interval| self.ruler(redundant).verdict(off * unit, right * unit);
         let until = off.until().map(verdict);
         let undecided = Verdict::Undecided {
             at_most: f64::INFINITY,
@@ -139,10 +135,7 @@ impl Parts {
         let unit = self.scale(self.cut.left_out(redundant).index);
         let right = self.right_until(redundant, 1.0, rights);
         // A power of two.
-        let within = self
-            .cut
-            .ruler(redundant, self.options.redundant_tolerance)
-            .within(right * point(unit));
+        let within = self.ruler(redundant).within(right * point(unit));
         within.map(|off| off / unit)
     }
 

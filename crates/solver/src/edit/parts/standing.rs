@@ -2,11 +2,10 @@
 
 use super::left_out::at_rest_all;
 use super::{Parts, Used};
-use crate::edit::ending::Ending;
 use crate::edit::open::OpenError;
 use crate::edit::session::{Standing, TooMany};
 use crate::interval::Real;
-use crate::track::{Control, StopKind};
+use crate::track::Control;
 
 impl Parts {
     /// Leads the sketch to its dimensions, as edits begin, and looks at what was left out. `rights`: see [`Parts::assemble`].
@@ -28,12 +27,9 @@ impl Parts {
         let led = self.lead(rights, control);
         let is_taken = led.is_ok();
         let broken = match led {
-            Err(OpenError::Correction { ending, .. }) => match *ending {
-                Ending::Stopped(stop) if stop.kind == StopKind::Contradiction => {
-                    self.missed(&self.verdicts).map(|(k, _)| k)
-                }
-                _ => None,
-            },
+            Err(OpenError::Correction { ending, .. }) if ending.is_contradiction() => {
+                self.missed(&self.verdicts).map(|(k, _)| k)
+            }
             _ => None,
         };
         let too_many = match broken {

@@ -42,13 +42,8 @@ pub enum Relation {
 impl FigureBox {
     /// A box with one figure, of which it is not known how far others are.
     pub fn around(ranges: impl IntoIterator<Item = Interval>) -> Self {
-        let ranges: Vec<Interval> = ranges.into_iter().collect();
         FigureBox {
-            figure: Figure {
-                centre: ranges.iter().map(|x| x.mid()).collect(),
-                low: vec![0.0; ranges.len()],
-                radius: ranges.iter().map(|x| x.rad()).collect(),
-            },
+            figure: Figure::within(ranges),
             alone_within: 0.0,
         }
     }
@@ -57,11 +52,7 @@ impl FigureBox {
     pub fn about(figure: &[f64], part: f64) -> Self {
         let size = figure.iter().fold(0.0, |max: f64, x| max.max(x.abs()));
         FigureBox {
-            figure: Figure {
-                centre: figure.to_vec(),
-                low: vec![0.0; figure.len()],
-                radius: vec![0.5 * part * size; figure.len()],
-            },
+            figure: Figure::around(figure.to_vec(), vec![0.5 * part * size; figure.len()]),
             alone_within: 1.5 * part * size,
         }
     }

@@ -257,11 +257,7 @@ impl FoldProver {
         let radius = |k: usize| radius(step[k]);
         let t = around(self.x[m], radius(m));
         Some(Fold {
-            figure: Figure {
-                centre: self.x[..m].to_vec(),
-                low: vec![0.0; m],
-                radius: (0..m).map(radius).collect(),
-            },
+            figure: Figure::around(self.x[..m].to_vec(), (0..m).map(radius).collect()),
             t,
             velocity: self.v[..m].to_vec(),
             velocity_radius: (0..m).map(|k| radius(m + 1 + k)).collect(),
