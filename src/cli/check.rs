@@ -12,7 +12,6 @@ use krawl::problem::{DEPENDS, Object, Problem, Shape, Target, counted};
 use krawl::remarks::{in_words, moves, remarks};
 use krawl::report::{decomposition_in_words, freedom_of_sketch_in_words};
 use krawl::system::{GaugeError, Homotopy};
-use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 /// Check a problem file and print what is in it
@@ -104,7 +103,7 @@ fn surplus_in_words(census: &Census) -> String {
         text += "too many\n";
     }
     for one in &census.surplus {
-        let _ = writeln!(text, "  {}", one.in_words());
+        text += &format!("  {}\n", one.in_words());
     }
     text
 }
@@ -127,7 +126,7 @@ fn describe_sketches(file: &Path, which: &input::Which) -> Result<(String, u8), 
         for one in &listed {
             let drawn = counted(one.drawn, "thing");
             let constraints = counted(one.constraints, "constraint");
-            let _ = writeln!(text, "  {}: {drawn} drawn, {constraints}", one.name);
+            text += &format!("  {}: {drawn} drawn, {constraints}\n", one.name);
         }
         return Ok((text, CLOSED));
     }
@@ -144,7 +143,7 @@ fn describe_sketches(file: &Path, which: &input::Which) -> Result<(String, u8), 
     text += &surplus_in_words(&census);
     let kept = Account::of(problem, 0).kept_in_words();
     if !kept.is_empty() {
-        let _ = writeln!(text, "read {kept}");
+        text += &format!("read {kept}\n");
     }
     text += "dimensions (for --set)\n";
     for index in problem.dimensions().filter(|&i| imported.has_number(i)) {
@@ -168,7 +167,7 @@ fn describe_sketches(file: &Path, which: &input::Which) -> Result<(String, u8), 
                 tied.expression
             )
         });
-        let _ = writeln!(text, "  {name:<13} {what}{tied}");
+        text += &format!("  {name:<13} {what}{tied}\n");
     }
     text += &blocks_in_words(&blocks);
     Ok((text, exit_code(&census, CLOSED)))
@@ -290,11 +289,7 @@ impl Loose {
             let those = left_out.iter().filter(|one| one.why == of);
             let names: Vec<&str> = those.map(|one| one.name.as_str()).collect();
             if !names.is_empty() {
-                let _ = writeln!(
-                    text,
-                    "  left out of the blocks, {why}: {}",
-                    names.join(", ")
-                );
+                text += &format!("  left out of the blocks, {why}: {}\n", names.join(", "));
             }
         }
         text
@@ -330,10 +325,10 @@ fn clusters_in_words(problem: &Problem) -> String {
     );
     for (index, block) in blocks.iter().enumerate().take(MOST) {
         let names: Vec<&str> = block.points.iter().map(|p| p.name.as_str()).collect();
-        let _ = writeln!(text, "  {}: {}", index + 1, names.join(", "));
+        text += &format!("  {}: {}\n", index + 1, names.join(", "));
     }
     if blocks.len() > MOST {
-        let _ = writeln!(text, "  and {} more", blocks.len() - MOST);
+        text += &format!("  and {} more\n", blocks.len() - MOST);
     }
     text
 }
@@ -352,10 +347,10 @@ fn remarks_in_words(problem: &Problem) -> String {
     });
     let mut text: String = lines.collect();
     if let Some(moves) = moves(problem) {
-        let _ = writeln!(text, "warning: {}", moves.in_words(problem));
+        text += &format!("warning: {}\n", moves.in_words(problem));
     }
     if found.len() > MOST {
-        let _ = writeln!(text, "and {} more of these", found.len() - MOST);
+        text += &format!("and {} more of these\n", found.len() - MOST);
     }
     text
 }

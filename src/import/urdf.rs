@@ -8,7 +8,6 @@ use crate::problem::{Decimal, JointSort, Pose};
 use roxmltree::{Document, Node};
 use std::collections::HashSet;
 use std::f64::consts::FRAC_PI_2;
-use std::fmt::Write;
 
 /// The robot of a file as the text of a problem file (docs/using/robots.md).
 ///
@@ -90,9 +89,8 @@ pub fn problem_file(xml: &str) -> Result<String, String> {
             });
             format!("[{a}, {b}]")
         };
-        let _ = writeln!(
-            joints,
-            "{} = {{ {} = [{first}, {second}], at = {}, z = {}, x = {} }}",
+        joints += &format!(
+            "{} = {{ {} = [{first}, {second}], at = {}, z = {}, x = {} }}\n",
             quoted(&name),
             sort.name(),
             pair(|p| &p.at),
@@ -105,18 +103,18 @@ pub fn problem_file(xml: &str) -> Result<String, String> {
     }
     let mut out = String::new();
     let name = root.attribute("name").unwrap_or("robot");
-    let _ = writeln!(out, "name = {}\ndimension = 3\n\n[bodies]", quoted(name));
+    out += &format!("name = {}\ndimension = 3\n\n[bodies]\n", quoted(name));
     for body in bodies {
-        let _ = writeln!(out, "{} = {{}}", quoted(&body));
+        out += &format!("{} = {{}}\n", quoted(&body));
     }
-    let _ = write!(out, "\n[joints]\n{joints}\n[constraints]\n");
+    out += &format!("\n[joints]\n{joints}\n[constraints]\n");
     for (key, names) in [("turns", turns), ("travels", travels)] {
         let entries: Vec<String> = names
             .iter()
             .map(|name| format!("[{}, 0]", quoted(name)))
             .collect();
         if !entries.is_empty() {
-            let _ = writeln!(out, "{key} = [{}]", entries.join(", "));
+            out += &format!("{key} = [{}]\n", entries.join(", "));
         }
     }
     Ok(out)

@@ -1,6 +1,5 @@
 //! A problem that was followed block by block, and the figures of the whole that come of it.
 
-use super::columns::written;
 use super::complete::counted_or_many;
 use super::document::{Blocks, Document, Solve};
 use super::edit::write_points;
@@ -9,7 +8,6 @@ use super::run::Run;
 use crate::blocks::Combined;
 use crate::problem::Problem;
 use crate::track::{Mode, Options, Outcome, Status};
-use std::fmt::{self, Write};
 
 /// A problem with the runs of its blocks ([`crate::blocks::clusters`]).
 #[derive(Debug, Clone, Copy)]
@@ -84,13 +82,9 @@ impl BlockRuns<'_> {
 
     /// The combined figures as a text of several lines, the first ones or all.
     pub fn to_table(&self, all: bool) -> String {
-        let heading = format!("{}: {}\n", self.problem.name, self.verdict());
-        heading + &written(|out| self.write_figures(out, all))
-    }
-
-    fn write_figures(&self, out: &mut String, all: bool) -> fmt::Result {
+        let mut out = format!("{}: {}\n", self.problem.name, self.verdict());
         let Some(combined) = self.combined() else {
-            return Ok(());
+            return out;
         };
         let count = combined.count().unwrap_or(u64::MAX);
         let each = self.problem.points.len() as u64 + 2;
@@ -98,13 +92,14 @@ impl BlockRuns<'_> {
         for number in numbers.clone() {
             let choices = combined.choices(number);
             let chosen = choices.iter().map(|c| (c.block, c.solution, c.mirrored));
-            writeln!(out, "\nFigure {}: {}", number + 1, chosen_in_words(chosen))?;
+            out += &format!("\nFigure {}: {}\n", number + 1, chosen_in_words(chosen));
             match combined.figure(&choices) {
-                Some(points) => write_points(out, self.problem, &points)?,
-                None => writeln!(out, "  (its boxes are too wide to put the blocks together)")?,
+                Some(points) => write_points(&mut out, self.problem, &points),
+                None => out += "  (its boxes are too wide to put the blocks together)\n",
             }
         }
-        write_more(out, count, numbers.end)
+        write_more(&mut out, count, numbers.end);
+        out
     }
 
     /// The result: that of the whole, which stopped, with `blocks` in it (docs/using/programs.md).

@@ -3,19 +3,10 @@
 use super::certain_digits;
 use crate::interval::Interval;
 use crate::problem::Problem;
-use std::fmt::{self, Write};
 
 /// What is said below coordinates whose digits are proved.
 pub(super) const DIGITS: &str =
     "Every coordinate differs from the exact one by at most 1 in its last digit shown.";
-
-/// The text that `write` writes.
-pub(super) fn written(write: impl FnOnce(&mut String) -> fmt::Result) -> String {
-    let mut out = String::new();
-    // Writing to a string cannot fail.
-    let _ = write(&mut out);
-    out
-}
 
 /// Cells in columns.
 pub(super) struct Grid<L> {
@@ -54,7 +45,7 @@ impl<L: Fn(usize) -> bool> Grid<L> {
                 false => format!("{cell:>width$}"),
             });
             let line = cells.collect::<Vec<_>>().join("  ");
-            let _ = writeln!(out, "  {}", line.trim_end());
+            out += &format!("  {}\n", line.trim_end());
         }
         out
     }
@@ -66,7 +57,7 @@ pub(super) fn write_points(
     problem: &Problem,
     points: &[[Interval; 3]],
     digits: impl Fn(&Interval) -> String,
-) -> fmt::Result {
+) {
     let rows: Vec<Vec<String>> = points
         .iter()
         .map(|p| p.iter().take(problem.dimension).map(&digits).collect())
@@ -86,25 +77,19 @@ pub(super) fn write_points(
         let mut line = format!("  {:<names$}", point.name);
         for (text, &(left, right)) in row.iter().zip(&columns) {
             let at = before(text);
-            write!(line, "  {:>left$}{:<right$}", &text[..at], &text[at..])?;
+            line += &format!("  {:>left$}{:<right$}", &text[..at], &text[at..]);
         }
-        writeln!(out, "{}", line.trim_end())?;
+        *out += &format!("{}\n", line.trim_end());
     }
-    Ok(())
 }
 
 /// Points with their certain digits, a line each, not aligned.
-pub(super) fn write_digits(
-    out: &mut String,
-    problem: &Problem,
-    points: &[[Interval; 3]],
-) -> fmt::Result {
+pub(super) fn write_digits(out: &mut String, problem: &Problem, points: &[[Interval; 3]]) {
     for (point, place) in problem.points.iter().zip(points) {
-        write!(out, "  {}", point.name)?;
+        *out += &format!("  {}", point.name);
         for x in place.iter().take(problem.dimension) {
-            write!(out, "  {:>18}", certain_digits(*x))?;
+            *out += &format!("  {:>18}", certain_digits(*x));
         }
-        writeln!(out)?;
+        out.push('\n');
     }
-    Ok(())
 }

@@ -1,6 +1,6 @@
 //! All solutions, for people and for programs.
 
-use super::columns::{DIGITS, write_digits, written};
+use super::columns::{DIGITS, write_digits};
 use super::document::all_names;
 use super::supposed::supposed;
 use super::table::write_objects;
@@ -10,7 +10,6 @@ use crate::complete::{Among, Choice, Complete, Method, Status, Tested, Why};
 use crate::constraint::{Symmetry, symmetry};
 use crate::problem::{Object, Problem, Shape, counted, either, list};
 use crate::track::Mode;
-use std::fmt::Write;
 
 /// Of the parts that a sketch falls apart into, so many are shown.
 const SHOWN: usize = 12;
@@ -41,128 +40,116 @@ pub(super) fn why(why: Why) -> &'static str {
 
 /// The result as a text of several lines: what is proved, the solutions, the numbers of the search.
 pub fn complete_to_table(problem: &Problem, result: &Complete) -> String {
-    written(|out| write_table(out, problem, result))
-}
-
-fn write_table(out: &mut String, problem: &Problem, result: &Complete) -> std::fmt::Result {
-    writeln!(out, "{}: {}", problem.name, verdict(problem, result))?;
+    let mut out = format!("{}: {}\n", problem.name, verdict(problem, result));
     for part in &result.undecided {
         let parts = counted(part.count as usize, "part");
         let share = 100.0 * part.share;
         if part.why == Why::Sign {
             let figures = counted(part.count as usize, "figure");
-            writeln!(
-                out,
-                "  undecided: {figures} of which a sign that is asked for cannot be told"
-            )?;
+            out += &format!(
+                "  undecided: {figures} of which a sign that is asked for cannot be told\n"
+            );
             continue;
         }
-        writeln!(
-            out,
-            "  undecided: {parts} ({} % of {}): {}",
+        out += &format!(
+            "  undecided: {parts} ({} % of {}): {}\n",
             percent(share),
             match result.method {
                 Method::Coordinates => "the space of coordinates",
                 _ => "the parameter space",
             },
             why(part.why)
-        )?;
+        );
     }
     for (index, solution) in result.solutions.iter().enumerate() {
-        writeln!(
-            out,
-            "\nSolution {}, relative width {:.1e}",
+        out += &format!(
+            "\nSolution {}, relative width {:.1e}\n",
             index + 1,
             solution.width
-        )?;
-        write_digits(out, problem, &solution.points)?;
-        write_objects(out, problem, Mode::Certified, &solution.objects)?;
+        );
+        write_digits(&mut out, problem, &solution.points);
+        write_objects(&mut out, problem, Mode::Certified, &solution.objects);
         let account = Account {
             left_out: figure(result, index).to_vec(),
             ..Account::default()
         };
         if !account.left_out.is_empty() {
-            writeln!(out, "  {}", account.left_out_in_words())?;
+            out += &format!("  {}\n", account.left_out_in_words());
         }
     }
     let listed = result.solutions.len();
     if result.count.is_none_or(|count| count > listed as u64) {
-        writeln!(out, "\nThe first {listed} are listed.")?;
+        out += &format!("\nThe first {listed} are listed.\n");
     }
     if !result.solutions.is_empty() {
-        writeln!(out, "\n{DIGITS}")?;
+        out += &format!("\n{DIGITS}\n");
     }
-    write_choices(out, &result.choices)?;
+    write_choices(&mut out, &result.choices);
     if let Some(first) = &result.first_choice {
-        writeln!(
-            out,
-            "\nThe sketch falls apart once these are placed, in one of {}: {}. Beside each of them the solutions are all combinations of what the rest has.",
+        out += &format!(
+            "\nThe sketch falls apart once these are placed, in one of {}: {}. Beside each of them the solutions are all combinations of what the rest has.\n",
             counted(first.count, "way"),
             match first.names.is_empty() {
                 true => "lengths or directions without a name".to_owned(),
                 false => first.names.join(", "),
             }
-        )?;
+        );
     }
     for part in &result.parts {
         let (names, verdict) = (
             all_names(&part.problem).join(", "),
             verdict(&part.problem, &part.result),
         );
-        writeln!(out, "\nPart {names}: {verdict}")?;
+        out += &format!("\nPart {names}: {verdict}\n");
     }
-    writeln!(out)?;
+    out.push('\n');
     match result.method {
         Method::Coordinates | Method::Complex => {
-            writeln!(out, "unknowns            {}", result.driving)?;
+            out += &format!("unknowns            {}\n", result.driving);
         }
-        _ => writeln!(out, "driving parameters  {}", result.driving)?,
+        _ => out += &format!("driving parameters  {}\n", result.driving),
     }
     if let Some(it) = result.constructed {
-        writeln!(
-            out,
-            "constructed         {} step by step, driven by {}",
+        out += &format!(
+            "constructed         {} step by step, driven by {}\n",
             counted(it.unknowns, "unknown"),
             counted(it.parameters, "parameter")
-        )?;
+        );
     }
     if let Some(count) = result.complex {
-        writeln!(
-            out,
-            "complex solutions   {count}, proved: as many as the product of the degrees allows"
-        )?;
+        out += &format!(
+            "complex solutions   {count}, proved: as many as the product of the degrees allows\n"
+        );
     }
     if !result.turned.is_empty() {
-        writeln!(out, "rotations of        {}", result.turned.join(", "))?;
+        out += &format!("rotations of        {}\n", result.turned.join(", "));
     }
     if result.complex.is_none() {
-        writeln!(out, "boxes               {}", result.boxes)?;
+        out += &format!("boxes               {}\n", result.boxes);
     }
-    writeln!(out, "seconds             {:.4}", result.seconds)?;
+    out += &format!("seconds             {:.4}\n", result.seconds);
     match result.seconds_left {
         Some(left) if left.is_finite() => {
             let left = span(left);
-            writeln!(
-                out,
-                "left                perhaps {left}, if it goes on as in the second half of the time"
-            )
+            out += &format!(
+                "left                perhaps {left}, if it goes on as in the second half of the time\n"
+            );
         }
-        Some(_) => writeln!(
-            out,
-            "left                no piece of it was finished: the same time again would lead no farther"
-        ),
-        None if result.was_ended() && result.method != Method::Blocks => writeln!(
-            out,
-            "left                no estimate: in the second half of the time less than a thousandth of the rest was finished"
-        ),
-        None => Ok(()),
+        Some(_) => {
+            out += "left                no piece of it was finished: the same time again would lead no farther\n"
+        }
+        None if result.was_ended() && result.method != Method::Blocks => {
+            out += "left                no estimate: in the second half of the time less than a thousandth of the rest was finished\n"
+        }
+        None => {}
     }
+    out
 }
 
 /// Of what the figures are combinations.
-fn write_choices(out: &mut String, choices: &[Choice]) -> std::fmt::Result {
+fn write_choices(out: &mut String, choices: &[Choice]) {
     if choices.is_empty() {
-        return Ok(());
+        return;
     }
     let mut factors: Vec<(usize, usize)> = Vec::new();
     for choice in choices {
@@ -175,22 +162,21 @@ fn write_choices(out: &mut String, choices: &[Choice]) -> std::fmt::Result {
         1 => count.to_string(),
         _ => format!("{count}^{times}"),
     });
-    writeln!(
-        out,
-        "\nThe sketch falls apart into {} that do not depend on each other; the solutions are all combinations of theirs, {}:",
+    *out += &format!(
+        "\nThe sketch falls apart into {} that do not depend on each other; the solutions are all combinations of theirs, {}:\n",
         counted(choices.len(), "part"),
         factors.collect::<Vec<_>>().join(" · ")
-    )?;
+    );
     for choice in choices.iter().take(SHOWN) {
         let names = match choice.names.is_empty() {
             true => "a length or direction without a name".to_owned(),
             false => choice.names.join(", "),
         };
-        writeln!(out, "  {}: {names}", counted(choice.count, "place"))?;
+        *out += &format!("  {}: {names}\n", counted(choice.count, "place"));
     }
     match choices.len().saturating_sub(SHOWN) {
-        0 => Ok(()),
-        more => writeln!(out, "  and {} more", counted(more, "part")),
+        0 => {}
+        more => *out += &format!("  and {} more\n", counted(more, "part")),
     }
 }
 

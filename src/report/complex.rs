@@ -1,7 +1,6 @@
 //! Complex solutions, as text and for programs.
 
 use super::certain_digits;
-use super::columns::written;
 use super::document::{Complex, names, text};
 use crate::certificate::complex::{ComplexFlaw, ComplexVerdict};
 use crate::complex::infinity::{Departure, Split};
@@ -10,7 +9,6 @@ use crate::constraint::{Symmetry, symmetry};
 use crate::interval::{Interval, point};
 use crate::places::Each as _;
 use crate::problem::{Problem, counted, either, list};
-use std::fmt::Write;
 
 /// The real and imaginary part of an unknown, in the problem's unit.
 fn parts(lowered: &Lowered, one: &SolutionBox, unknown: usize) -> [Interval; 2] {
@@ -89,6 +87,9 @@ pub fn complex_to_json(problem: &Problem, lowered: &Lowered, result: &Solutions)
     text(&Complex::new(problem, lowered, result))
 }
 
+/// Solutions are listed in full as long as there are no more.
+const MOST: usize = 20;
+
 /// The result for people: what was found and what that means, then solutions, the real ones only unless `all`.
 pub fn complex_to_table(
     problem: &Problem,
@@ -96,20 +97,7 @@ pub fn complex_to_table(
     result: &Solutions,
     all: bool,
 ) -> String {
-    written(|out| write_table(out, problem, lowered, result, all))
-}
-
-/// Solutions are listed in full as long as there are no more.
-const MOST: usize = 20;
-
-fn write_table(
-    out: &mut String,
-    problem: &Problem,
-    lowered: &Lowered,
-    result: &Solutions,
-    all: bool,
-) -> std::fmt::Result {
-    writeln!(out, "{}: {}", problem.name, verdict(lowered, result))?;
+    let mut out = format!("{}: {}\n", problem.name, verdict(lowered, result));
     let is_absolute = lowered.system.is_absolute;
     let different = match (is_absolute, others(lowered).is_empty()) {
         (true, _) if lowered.system.is_told_by_points() => "no two are the same figure",
@@ -123,12 +111,11 @@ fn write_table(
         }
     };
     if !result.natures.is_empty() {
-        writeln!(
-            out,
-            "Each box holds exactly one solution; {different}. {}{}",
+        out += &format!(
+            "Each box holds exactly one solution; {different}. {}{}\n",
             natures(lowered, result),
             no_figures(lowered, result)
-        )?;
+        );
     }
     if !result.infinite.is_empty() {
         let paths = counted(result.infinite.len(), "path");
@@ -136,12 +123,9 @@ fn write_table(
             0 => "as to a solution at infinity",
             _ => "to the figures at infinity below, or so it seems",
         };
-        writeln!(
-            out,
-            "{paths} went beyond the radius before t = 1, {where_to}."
-        )?;
+        out += &format!("{paths} went beyond the radius before t = 1, {where_to}.\n");
     }
-    departures(out, problem, result)?;
+    departures(&mut out, problem, result);
     if result.repeated > 0 {
         let paths = counted(result.repeated, "path");
         let why = match result.paths_proved {
@@ -154,22 +138,18 @@ fn write_table(
             true => "",
             false => " or a mirror image of one",
         };
-        writeln!(
-            out,
-            "{paths} came to a solution{image} to which another had come: {why}."
-        )?;
+        out += &format!("{paths} came to a solution{image} to which another had come: {why}.\n");
     }
     if result.conjugates > 0 {
         let solutions = counted(result.conjugates, "solution");
-        writeln!(
-            out,
+        out += &format!(
             "{solutions}, to which no path came, are conjugates of others: dimensions are real, so these are solutions too; \
-             proved as all are."
-        )?;
+             proved as all are.\n"
+        );
     }
     if let Some(reason) = result.stopped.first() {
         let paths = counted(result.stopped.len(), "path");
-        writeln!(out, "{paths} stopped, the first because {reason}")?;
+        out += &format!("{paths} stopped, the first because {reason}\n");
     }
     let d = problem.dimension;
     let others = others(lowered);
@@ -193,26 +173,21 @@ fn write_table(
             Nature::Unknown => "it could not be told whether it is real".to_owned(),
         };
         let width = one.relative_width();
-        writeln!(
-            out,
-            "\nSolution {}, {what}, relative width {width:.1e}",
-            k + 1
-        )?;
-        let show = |out: &mut String, [re, im]: [Interval; 2]| match nature {
-            Nature::Real => write!(out, "  {:>18}", certain_digits(re)),
-            _ => write!(
-                out,
+        out += &format!("\nSolution {}, {what}, relative width {width:.1e}\n", k + 1);
+        let show = |[re, im]: [Interval; 2]| match nature {
+            Nature::Real => format!("  {:>18}", certain_digits(re)),
+            _ => format!(
                 "  {:>18} + {:>18} i",
                 certain_digits(re),
                 certain_digits(im)
             ),
         };
         for (p, unknowns) in problem.points.iter().zip(&lowered.system.points) {
-            write!(out, "  {}", p.name)?;
+            out += &format!("  {}", p.name);
             for &unknown in &unknowns[..d] {
-                show(out, coordinate(lowered, one, nature, unknown))?;
+                out += &show(coordinate(lowered, one, nature, unknown));
             }
-            writeln!(out)?;
+            out.push('\n');
         }
         // Of equations of one's own what people named.
         let is_named = |name: &str| problem.objects.iter().any(|object| object.name == name);
@@ -220,74 +195,64 @@ fn write_table(
             if lowered.is_of_numbers() && !is_named(&lowered.system.unknowns[unknown].name) {
                 continue;
             }
-            write!(out, "  {}", lowered.system.unknowns[unknown].name)?;
-            show(out, coordinate(lowered, one, nature, Some(unknown)))?;
-            writeln!(out)?;
+            out += &format!("  {}", lowered.system.unknowns[unknown].name);
+            out += &show(coordinate(lowered, one, nature, Some(unknown)));
+            out.push('\n');
         }
     }
     if listed.len() > most {
-        writeln!(
-            out,
-            "\n{} more: `--all` lists every one, `--json` writes them",
+        out += &format!(
+            "\n{} more: `--all` lists every one, `--json` writes them\n",
             listed.len() - most
-        )?;
+        );
     } else if !all && listed.len() < result.natures.len() {
-        writeln!(out, "\nReal ones are listed; `--all` lists the others too.")?;
+        out += "\nReal ones are listed; `--all` lists the others too.\n";
     }
-    writeln!(out)?;
+    out.push('\n');
     if !lowered.is_of_numbers() {
-        writeln!(out, "gauge      {}", lowered.system.gauge)?;
+        out += &format!("gauge      {}\n", lowered.system.gauge);
     }
     let effort = result.effort;
     let paths = effort.paths;
-    write!(out, "paths      {paths}")?;
+    out += &format!("paths      {paths}");
     if result.paths_proved || effort.tubes > 0 {
-        write!(
-            out,
-            ", {} tubes, {} rejected",
-            effort.tubes, effort.rejected
-        )?;
+        out += &format!(", {} tubes, {} rejected", effort.tubes, effort.rejected);
     }
     if effort.steps > 0 {
         let which = match effort.tubes {
             0 => "followed in floats",
             _ => "some of them in floats",
         };
-        write!(out, ", {which}, {} steps", effort.steps)?;
+        out += &format!(", {which}, {} steps", effort.steps);
     }
     if effort.double_steps > 0 {
         let double = effort.double_steps;
-        write!(
-            out,
-            ", {double} of them in double-doubles, where unknowns are large"
-        )?;
+        out += &format!(", {double} of them in double-doubles, where unknowns are large");
     }
-    writeln!(out)?;
-    writeln!(out, "seconds    {:.4}", result.seconds)
+    out.push('\n');
+    out += &format!("seconds    {:.4}\n", result.seconds);
+    out
 }
 
 /// The figures at infinity: which points go there, and which lengths let them.
-fn departures(out: &mut String, problem: &Problem, result: &Solutions) -> std::fmt::Result {
+fn departures(out: &mut String, problem: &Problem, result: &Solutions) {
     if result.at_infinity() == 0 {
-        return Ok(());
+        return;
     }
-    writeln!(
-        out,
+    *out += &format!(
         "{} at infinity, proved, up to isometry; other lengths bring them back. Here lengths around the points that go away add up \
-         to zero with signs:",
+         to zero with signs:\n",
         counted(result.at_infinity(), "figure")
-    )?;
+    );
     for Departure { split, figures } in &result.departures {
         let go = list(&names(problem, &split.inside), 4);
         let verb = either(split.inside.len(), "goes", "go");
-        writeln!(
-            out,
-            "  {} where {go} {verb} away, as {}",
+        *out += &format!(
+            "  {} where {go} {verb} away, as {}\n",
             figures.len(),
             sum_of_lengths(problem, split)
-        )?;
+        );
     }
-    Ok(())
 }
 
 /// The lengths around a cycle with the signs with which they add up to zero.

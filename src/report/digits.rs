@@ -2,7 +2,6 @@
 
 use crate::digits::Digits;
 use crate::problem::Problem;
-use std::fmt::Write;
 
 /// What is said of the solutions of a list, of which the first one has the number `first`, each to many digits or why it is not.
 pub fn digits_to_table(problem: &Problem, first: usize, all: &[Result<Digits, String>]) -> String {
@@ -11,22 +10,18 @@ pub fn digits_to_table(problem: &Problem, first: usize, all: &[Result<Digits, St
         let found = match one {
             Ok(found) => found,
             Err(why) => {
-                let _ = writeln!(
-                    out,
-                    "\nSolution {number} is not told to more digits: {why}."
-                );
+                out += &format!("\nSolution {number} is not told to more digits: {why}.\n");
                 continue;
             }
         };
-        let _ = writeln!(
-            out,
-            "\nSolution {number}, each number off by at most 1 in its last digit, proved"
+        out += &format!(
+            "\nSolution {number}, each number off by at most 1 in its last digit, proved\n"
         );
         for (point, at) in problem.points.iter().zip(&found.points) {
-            let _ = writeln!(out, "  {} = ({})", point.name, at.join(", "));
+            out += &format!("  {} = ({})\n", point.name, at.join(", "));
         }
         for (name, number) in &found.numbers {
-            let _ = writeln!(out, "  {name} = {number}");
+            out += &format!("  {name} = {number}\n");
         }
     }
     out

@@ -1,7 +1,7 @@
 //! Edits in words and tables, for people, and as JSON, for programs.
 
 use super::certain_digits;
-use super::columns::{self, DIGITS, written};
+use super::columns::{self, DIGITS};
 use super::document::{Named, names};
 use super::table::write_joints;
 use crate::blocks::{Account, Why, rounded_up};
@@ -11,7 +11,6 @@ use crate::interval::{Bound, Interval};
 use crate::order::InOrder;
 use crate::problem::{Object, Problem, Shape, counted, either, list};
 use crate::system::Located;
-use std::fmt::Write;
 
 /// What is said of a sketch whose path has no figure with all dimensions: what comes of each of them alone. Empty if nothing is
 /// known of that.
@@ -240,35 +239,8 @@ pub(super) fn short(x: Interval) -> String {
 /// An edit as a text of several lines: how it ended, the figure, what became of orientations, numbers of the
 /// run. `moved`: how far the sketch was from the old figure.
 pub fn edit_to_table(problem: &Problem, edited: &Edited, moved: Moved) -> String {
-    let heading = format!("{}: {}\n", problem.name, edit_in_words(problem, edited));
-    heading + &written(|out| write_edit(out, problem, edited, moved))
-}
-
-/// How far the sketch was led before, if it was.
-pub(super) fn write_moved(out: &mut String, problem: &Problem, moved: Moved) -> std::fmt::Result {
-    if moved.tubes == 0 {
-        return Ok(());
-    }
-    let far = match problem.points.is_empty() {
-        true => String::new(),
-        false => format!(
-            ": no point moved by more than {}",
-            rounded_up(moved.distance)
-        ),
-    };
-    writeln!(
-        out,
-        "The sketch was led to its own dimensions first, proved likewise{far}."
-    )
-}
-
-fn write_edit(
-    out: &mut String,
-    problem: &Problem,
-    edited: &Edited,
-    moved: Moved,
-) -> std::fmt::Result {
-    write_moved(out, problem, moved)?;
+    let mut out = format!("{}: {}\n", problem.name, edit_in_words(problem, edited));
+    write_moved(&mut out, problem, moved);
     let what = match edited.ending {
         Ending::Reached if problem.points.is_empty() => "Solution",
         Ending::Limit(_) if problem.points.is_empty() => "Solution at the limit",
@@ -277,10 +249,10 @@ fn write_edit(
         Ending::Limit(_) => "Figure at the limit, in the coordinates of the file",
         _ => "Old figure, in the coordinates of the file",
     };
-    writeln!(out, "\n{what}")?;
-    write_points(out, problem, &edited.points)?;
-    write_numbers(out, problem, &edited.objects)?;
-    writeln!(out, "\n{DIGITS}")?;
+    out += &format!("\n{what}\n");
+    write_points(&mut out, problem, &edited.points);
+    write_numbers(&mut out, problem, &edited.objects);
+    out += &format!("\n{DIGITS}\n");
 
     let orientations = &edited.orientations;
     let what = if problem.dimension == 2 {
@@ -294,11 +266,10 @@ fn write_edit(
         Ending::Reached => "all the way",
         _ => "up to there",
     };
-    writeln!(out)?;
-    writeln!(
-        out,
-        "orientations        {kept} of {all} {what} of joined points keep their sign {until}, proved"
-    )?;
+    out.push('\n');
+    out += &format!(
+        "orientations        {kept} of {all} {what} of joined points keep their sign {until}, proved\n"
+    );
     for lost in orientations.lost.iter().take(LISTED) {
         let (lo, hi) = lost.t;
         let names = named(problem, &lost.points);
@@ -306,44 +277,52 @@ fn write_edit(
             Ending::Limit(limit) if limit.flat.contains(&lost.points) => "flat at the limit",
             _ => "flat there, or too near to it to tell",
         };
-        writeln!(
-            out,
-            "  not kept          {names}: up to t = {}, not from there to {}: {end}",
+        out += &format!(
+            "  not kept          {names}: up to t = {}, not from there to {}: {end}\n",
             Bound::Lower.short(lo),
             Bound::Upper.short(hi)
-        )?;
+        );
     }
     if orientations.lost.len() > LISTED {
         let more = orientations.lost.len() - LISTED;
-        writeln!(out, "                    and {more} more")?;
+        out += &format!("                    and {more} more\n");
     }
     for flat in orientations.flat.iter().take(LISTED) {
         let names = named(problem, flat);
-        writeln!(
-            out,
-            "  no sign           {names}: flat in the old figure, or too near to it to tell"
-        )?;
+        out += &format!(
+            "  no sign           {names}: flat in the old figure, or too near to it to tell\n"
+        );
     }
-    writeln!(out, "tubes               {}", edited.tubes)?;
-    writeln!(out, "rejected tubes      {}", edited.rejected)?;
-    writeln!(out, "length of the path  {:.4}", edited.length)?;
-    writeln!(out, "seconds             {:.6}", edited.seconds)?;
+    out += &format!("tubes               {}\n", edited.tubes);
+    out += &format!("rejected tubes      {}\n", edited.rejected);
+    out += &format!("length of the path  {:.4}\n", edited.length);
+    out += &format!("seconds             {:.6}\n", edited.seconds);
     for (index, text) in edited.switched_on.iter().enumerate() {
         let label = if index == 0 { "switched on" } else { "" };
-        writeln!(out, "{label:<20}{text}")?;
+        out += &format!("{label:<20}{text}\n");
     }
-    Ok(())
+    out
 }
 
+/// How far the sketch was led before, if it was.
+pub(super) fn write_moved(out: &mut String, problem: &Problem, moved: Moved) {
+    if moved.tubes == 0 {
+        return;
+    }
+    let far = match problem.points.is_empty() {
+        true => String::new(),
+        false => format!(
+            ": no point moved by more than {}",
+            rounded_up(moved.distance)
+        ),
+    };
+    *out += &format!("The sketch was led to its own dimensions first, proved likewise{far}.\n");
+}
 /// Most orientations in one list.
 const LISTED: usize = 12;
 
 /// Points in aligned columns, with their certain digits.
-pub(super) fn write_points(
-    out: &mut String,
-    problem: &Problem,
-    points: &[[Interval; 3]],
-) -> std::fmt::Result {
+pub(super) fn write_points(out: &mut String, problem: &Problem, points: &[[Interval; 3]]) {
     columns::write_points(out, problem, points, |x| certain_digits(*x))
 }
 
@@ -356,11 +335,11 @@ pub fn account_in_words(account: &Account) -> String {
             0 => "held where it is",
             _ => "held, or in part",
         };
-        let _ = writeln!(out, "{label}    {}", list(&held, LISTED));
+        out += &format!("{label}    {}\n", list(&held, LISTED));
     }
     let left_out = account.left_out_in_words();
     if !left_out.is_empty() {
-        let _ = writeln!(out, "left out            {left_out}");
+        out += &format!("left out            {left_out}\n");
     }
     out
 }
@@ -405,9 +384,8 @@ pub fn decomposition_in_words(found: &Decomposition) -> String {
         out += "  none to solve: all are known exactly, one after the other\n";
     }
     for (index, block) in found.blocks.iter().enumerate() {
-        let _ = writeln!(
-            out,
-            "  {}: {}: {}",
+        out += &format!(
+            "  {}: {}: {}\n",
             index + 1,
             counted(block.len(), "unknown"),
             list(block, LISTED)
@@ -421,11 +399,11 @@ pub fn decomposition_in_words(found: &Decomposition) -> String {
         ("seem to follow from the others", seem),
     ] {
         if !names.is_empty() {
-            let _ = writeln!(out, "  {what}: {}", list(&names, LISTED));
+            out += &format!("  {what}: {}\n", list(&names, LISTED));
         }
     }
     if let Some(singular) = &found.singular {
-        let _ = writeln!(out, "  {}", singular.place_in_words());
+        out += &format!("  {}\n", singular.place_in_words());
     }
     out
 }
@@ -465,15 +443,13 @@ pub(super) fn numbers_of<C>(
 }
 
 /// The radii of circles, the values of unknown numbers, bodies with joints and joints, a line each.
-pub(super) fn write_numbers(
-    out: &mut String,
-    problem: &Problem,
-    objects: &[Located],
-) -> std::fmt::Result {
+pub(super) fn write_numbers(out: &mut String, problem: &Problem, objects: &[Located]) {
     for (object, at) in own(problem, objects) {
         match (&object.shape, at.number().map(certain_digits)) {
-            (Shape::Number { .. }, Some(number)) => writeln!(out, "  {} = {number}", object.name)?,
-            (_, Some(number)) => writeln!(out, "  {}: radius {number}", object.name)?,
+            (Shape::Number { .. }, Some(number)) => {
+                *out += &format!("  {} = {number}\n", object.name)
+            }
+            (_, Some(number)) => *out += &format!("  {}: radius {number}\n", object.name),
             (_, None) => {}
         }
     }

@@ -1,6 +1,6 @@
 //! What came of exploring, for people and for programs.
 
-use super::columns::{DIGITS, write_digits, written};
+use super::columns::{DIGITS, write_digits};
 use super::document::{
     self, Counts, Document, Drawing, FigureFound, Fold, Origin, PathFollowed, Points, Publication,
     Sample, Verb, points,
@@ -11,7 +11,6 @@ use crate::interval::vector::{cross, dot};
 use crate::places::{Each as _, array};
 use crate::problem::{Problem, Published, counted};
 use crate::track::{Outcome, Trace};
-use std::fmt::Write;
 
 /// What is known of all real solutions, by other means.
 #[derive(Debug, Clone, PartialEq)]
@@ -180,119 +179,102 @@ fn is_flat(problem: &Problem, class: &Class) -> bool {
 
 /// The result as a text of several lines; with the coordinates of all solutions where they are wanted.
 pub fn explore_to_table(explored: &Explored, coordinates: bool) -> String {
-    written(|out| write_table(out, explored, coordinates))
-}
-
-fn write_table(out: &mut String, explored: &Explored, coordinates: bool) -> std::fmt::Result {
     let (problem, contents) = (explored.problem(), explored.explorer.contents());
     let (counts, found) = (explored.counts(), contents.classes.len());
-    writeln!(out, "{}: {}", problem.name, explored.verdict())?;
+    let mut out = format!("{}: {}\n", problem.name, explored.verdict());
     let waiting = counted(counts.waiting, "sketch");
-    match explored.finish {
+    out += &match explored.finish {
         Some(Finish::Ended) => {
             let idle = contents.state.idle + 1;
-            writeln!(
-                out,
-                "Nothing new came of the last {}; `--patience` tries more.",
+            format!(
+                "Nothing new came of the last {}; `--patience` tries more.\n",
                 counted(idle, "way")
-            )?
+            )
         }
-        Some(Finish::Budget) => writeln!(
-            out,
-            "The budget ended with {waiting} waiting: the same command goes on from here."
-        )?,
-        Some(Finish::Interrupted) => writeln!(
-            out,
-            "Interrupted with {waiting} waiting: the same command goes on from here."
-        )?,
-        Some(Finish::Shared(count)) => writeln!(
-            out,
-            "{} left in work units: `krawl merge` takes their results, `--take-back` follows them here.",
+        Some(Finish::Budget) => format!(
+            "The budget ended with {waiting} waiting: the same command goes on from here.\n"
+        ),
+        Some(Finish::Interrupted) => {
+            format!("Interrupted with {waiting} waiting: the same command goes on from here.\n")
+        }
+        Some(Finish::Shared(count)) => format!(
+            "{} left in work units: `krawl merge` takes their results, `--take-back` follows them here.\n",
             counted(count, "sketch")
-        )?,
-        None => {}
-    }
-    writeln!(out)?;
-    match &explored.all_real {
-        AllReal::Proved(all) => writeln!(
-            out,
-            "of all real ones  {found} of {all} reached (`krawl all` proves that there are {all})"
-        )?,
-        AllReal::Unknown(why) => writeln!(out, "of all real ones  not known: {why}")?,
-    }
+        ),
+        None => String::new(),
+    };
+    out.push('\n');
+    out += &match &explored.all_real {
+        AllReal::Proved(all) => format!(
+            "of all real ones  {found} of {all} reached (`krawl all` proves that there are {all})\n"
+        ),
+        AllReal::Unknown(why) => format!("of all real ones  not known: {why}\n"),
+    };
     for published in explored.published {
         if let Some(solutions) = published.solutions {
             let seconds = match published.seconds {
                 Some(seconds) => format!(", {seconds} s"),
                 None => String::new(),
             };
-            writeln!(
-                out,
-                "published         {solutions}: {}{seconds}",
+            out += &format!(
+                "published         {solutions}: {}{seconds}\n",
                 published.method
-            )?;
+            );
         }
     }
-    writeln!(
-        out,
-        "paths             {} followed: {} closed, {} open, {} stopped; {} tubes",
+    out += &format!(
+        "paths             {} followed: {} closed, {} open, {} stopped; {} tubes\n",
         counts.followed, counts.closed, counts.open, counts.stopped, counts.tubes
-    )?;
-    writeln!(
-        out,
-        "sketches          {} waiting, {} in work units, {} on proved paths at t = 0, {} unusable, {} drawn before",
+    );
+    out += &format!(
+        "sketches          {} waiting, {} in work units, {} on proved paths at t = 0, {} unusable, {} drawn before\n",
         counts.waiting, counts.in_units, counts.recognised, counts.unusable, counts.repeated
-    )?;
+    );
     if counts.degenerate > 0 {
-        writeln!(
-            out,
-            "degenerate        {} flat figures on paths, with others as near as one likes: not counted as solutions",
+        out += &format!(
+            "degenerate        {} flat figures on paths, with others as near as one likes: not counted as solutions\n",
             counts.degenerate
-        )?;
+        );
     }
     if contents.state.undecided > 0 {
-        writeln!(
-            out,
-            "undecided         {} solutions of paths could not be told from others, and are not counted",
+        out += &format!(
+            "undecided         {} solutions of paths could not be told from others, and are not counted\n",
             contents.state.undecided
-        )?;
+        );
     }
-    writeln!(
-        out,
-        "ways              {} (plan, length that bends, coefficient)",
+    out += &format!(
+        "ways              {} (plan, length that bends, coefficient)\n",
         contents.state.ways
-    )?;
-    writeln!(out, "seconds           {:.2}", contents.state.seconds)?;
+    );
+    out += &format!("seconds           {:.2}\n", contents.state.seconds);
     if found > 0 {
-        writeln!(
-            out,
-            "\n{:>8}  {:>6}  {:<10}  {:<24}  bend",
+        out += &format!(
+            "\n{:>8}  {:>6}  {:<10}  {:<24}  bend\n",
             "solution", "path", "ends", "sketch from"
-        )?;
+        );
     }
     for class in &contents.classes {
         let Some(path) = explored.followed(class.path) else {
             continue;
         };
-        writeln!(
-            out,
-            "{:>8}  {:>6}  {:<10}  {:<24}  {} by {}",
+        out += &format!(
+            "{:>8}  {:>6}  {:<10}  {:<24}  {} by {}\n",
             class.id + 1,
             class.path,
             path.status,
             path.origin(),
             path.bend,
             path.bend_coefficient
-        )?;
+        );
     }
     if coordinates {
         for class in &contents.classes {
-            writeln!(out, "\nSolution {}", class.id + 1)?;
-            write_digits(out, problem, &intervals(&class.points))?;
+            out += &format!("\nSolution {}\n", class.id + 1);
+            write_digits(&mut out, problem, &intervals(&class.points));
         }
-        writeln!(out, "\n{DIGITS}")?;
+        out += &format!("\n{DIGITS}\n");
     }
-    Ok(())
+    out
 }
 
 impl Document {

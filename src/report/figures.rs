@@ -1,12 +1,11 @@
 //! The figures of a sketch in its own frame, as its blocks give them.
 
-use super::columns::{DIGITS, written};
+use super::columns::DIGITS;
 use super::document::SensesOf;
 use super::edit::{behind, write_numbers, write_points};
 use super::supposed::{signs_not_looked_at, supposed};
 use crate::blocks::{BlockAccount, Comparison, Figures, First, Sense, Way};
 use crate::problem::{Shape, counted, list};
-use std::fmt::Write;
 
 /// Figures that are listed in a table: as long as they fit in so many lines.
 const LINES: u64 = 60;
@@ -57,17 +56,16 @@ impl Listed {
 }
 
 /// What is said below the figures of a table, of which so many are there and those up to `end` are listed.
-pub(super) fn write_more(out: &mut String, count: u64, end: u64) -> std::fmt::Result {
+pub(super) fn write_more(out: &mut String, count: u64, end: u64) {
     if count > end {
-        writeln!(
-            out,
-            "\n... and {} more: `--all` prints them, `--json FILE` writes the first {IN_JSON} (with `--all` all).",
+        *out += &format!(
+            "\n... and {} more: `--all` prints them, `--json FILE` writes the first {IN_JSON} (with `--all` all).\n",
             count - end
-        )?;
+        );
     }
     match count {
-        0 => Ok(()),
-        _ => writeln!(out, "\n{DIGITS}"),
+        0 => {}
+        _ => *out += &format!("\n{DIGITS}\n"),
     }
 }
 
@@ -115,7 +113,7 @@ fn claim_in_words(figures: &Figures) -> String {
     out += &senses_in_words(figures);
     let left_out = figures.account().left_out_in_words();
     if !left_out.is_empty() {
-        let _ = write!(out, " {left_out}.");
+        out += &format!(" {left_out}.");
     }
     out
 }
@@ -231,11 +229,10 @@ fn followed(figures: &Figures) -> String {
 
 /// The figures as a text of several lines, the first ones or all.
 pub fn figures_to_table(figures: &Figures, listed: Listed) -> String {
-    figures_to_summary(figures)
-        + &written(|out| {
-            write_figures(out, figures, listed)?;
-            write_blocks(out, figures)
-        })
+    let mut out = figures_to_summary(figures);
+    write_figures(&mut out, figures, listed);
+    write_blocks(&mut out, figures);
+    out
 }
 
 /// What is said of the figure nearest to the sketch of those with all its senses, or that there is none.
@@ -274,7 +271,7 @@ pub fn figures_to_summary(figures: &Figures) -> String {
     )
 }
 
-fn write_figures(out: &mut String, figures: &Figures, listed: Listed) -> std::fmt::Result {
+fn write_figures(out: &mut String, figures: &Figures, listed: Listed) {
     let problem = figures.problem();
     let count = figures.count().unwrap_or(u64::MAX);
     let circles = problem.objects.iter();
@@ -292,11 +289,11 @@ fn write_figures(out: &mut String, figures: &Figures, listed: Listed) -> std::fm
     for number in numbers.clone() {
         let chosen = figures.chosen(number);
         let chosen = chosen_in_words(chosen.iter().map(|&(b, s)| (b, s, false)));
-        writeln!(out, "\nFigure {}{}", number + 1, behind(": ", chosen))?;
-        write_senses(out, figures, number)?;
+        *out += &format!("\nFigure {}{}\n", number + 1, behind(": ", chosen));
+        write_senses(out, figures, number);
         let (points, objects) = figures.figure(number);
-        write_points(out, problem, &points)?;
-        write_numbers(out, problem, &objects)?;
+        write_points(out, problem, &points);
+        write_numbers(out, problem, &objects);
     }
     let end = match listed {
         Listed::Only(_) => count,
@@ -316,13 +313,14 @@ pub(super) fn named(senses: &[Sense], compared: &[Comparison], how: Comparison) 
     out
 }
 
-fn write_senses(out: &mut String, figures: &Figures, number: u64) -> std::fmt::Result {
+fn write_senses(out: &mut String, figures: &Figures, number: u64) {
     let Some(senses @ [_, ..]) = figures.senses() else {
-        return Ok(());
+        return;
     };
     let told = SensesOf::new(senses, &figures.compared(number));
     if told.as_in_sketch == Some(true) {
-        return writeln!(out, "  senses as in the sketch");
+        *out += "  senses as in the sketch\n";
+        return;
     }
     for (names, what) in [
         (&told.other, "turned the other way"),
@@ -330,30 +328,25 @@ fn write_senses(out: &mut String, figures: &Figures, number: u64) -> std::fmt::R
         (&told.undecided, "not certain which way"),
     ] {
         if !names.is_empty() {
-            writeln!(out, "  {what}: {}", list(names, LISTED))?;
+            *out += &format!("  {what}: {}\n", list(names, LISTED));
         }
     }
-    Ok(())
 }
 
-fn write_blocks(out: &mut String, figures: &Figures) -> std::fmt::Result {
-    writeln!(out, "\nblocks")?;
+fn write_blocks(out: &mut String, figures: &Figures) {
+    *out += "\nblocks\n";
     let mut none = true;
     for (k, account) in figures.blocks().enumerate() {
         none = false;
-        writeln!(out, "  {}: {}", k + 1, block_in_words(account))?;
+        *out += &format!("  {}: {}\n", k + 1, block_in_words(account));
     }
     if none {
-        writeln!(
-            out,
-            "  none to solve: all numbers are known exactly, one after the other"
-        )?;
+        *out += "  none to solve: all numbers are known exactly, one after the other\n";
     }
     let held = figures.account().names_held();
     if !held.is_empty() {
-        writeln!(out, "free, held as drawn: {}", list(&held, LISTED))?;
+        *out += &format!("free, held as drawn: {}\n", list(&held, LISTED));
     }
-    Ok(())
 }
 
 /// `by formula, 2 solutions`.

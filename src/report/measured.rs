@@ -5,7 +5,6 @@ use super::document::Measured;
 use crate::interval::Interval;
 use crate::problem::{Problem, Shape};
 use crate::system::{Located, Quantity, with_a_name};
-use std::fmt::Write;
 
 /// A figure: enclosures of its points, and where its objects are.
 pub type Placed<'f> = (&'f [[Interval; 3]], &'f [Located]);
@@ -206,7 +205,7 @@ impl Measures {
             .collect();
         let mut out = format!("\nMeasured{of}\n          ");
         for (name, width) in self.names().zip(&widths) {
-            let _ = write!(out, "  {name:>width$}");
+            out += &format!("  {name:>width$}");
         }
         out.push('\n');
         for (number, row) in rows.iter().enumerate() {
@@ -214,9 +213,9 @@ impl Measures {
                 1 => String::new(),
                 _ => format!("solution {}", number + 1),
             };
-            let _ = write!(out, "{first:<10}");
+            out += &format!("{first:<10}");
             for (cell, width) in row.iter().zip(&widths) {
-                let _ = write!(out, "  {cell:>width$}");
+                out += &format!("  {cell:>width$}");
             }
             out.push('\n');
         }

@@ -10,7 +10,6 @@ use crate::edit::WayEnd;
 use crate::interval::{Bound, Interval, point};
 use crate::motion::{Bounds, Measured, Motion};
 use crate::problem::counted;
-use std::fmt::Write;
 
 /// What kind of motion it is, a sentence.
 pub fn motion_in_words(motion: &Motion) -> String {
@@ -40,21 +39,18 @@ pub fn motion_to_table(motion: &Motion) -> String {
     let coordinates = motion.problem.points.iter().flat_map(|p| &p.sketch);
     let size = coordinates.fold(0.0, |size: f64, x| size.max(x.to_f64().abs()));
     if motion.moved > 1e-9 * size {
-        // Writing to a string cannot fail.
-        let _ = writeln!(
-            out,
-            "The drawing was moved to a figure that meets its dimensions first: no point moved by more than {}.",
+        out += &format!(
+            "The drawing was moved to a figure that meets its dimensions first: no point moved by more than {}.\n",
             rounded_up(motion.moved)
         );
     }
     for (which, end) in ["One way", "The other way"].iter().zip(&motion.ends) {
-        let _ = writeln!(out, "  {which}: {}.", end_in_words(end));
+        out += &format!("  {which}: {}.\n", end_in_words(end));
     }
     let standing = names(&motion.problem, &motion.standing);
     if !standing.is_empty() {
-        let _ = writeln!(
-            out,
-            "Coordinates are those in which {} stand still.",
+        out += &format!(
+            "Coordinates are those in which {} stand still.\n",
             standing.join(" and ")
         );
     }

@@ -1,37 +1,25 @@
 //! Ranges and sweeps, for people and for programs.
 
 use super::certain_digits;
-use super::columns::{Grid, written};
+use super::columns::Grid;
 use super::edit::{behind, edit_in_words, limit_in_words, short, write_moved};
 use super::measured::{Measures, Placed};
 use crate::edit::{Edited, End, Ending, Moved, Range, Sweep};
 use crate::interval::{Bound, Interval};
 use crate::problem::Problem;
-use std::fmt::Write;
 
 /// The ranges of dimensions as a table.
 pub fn ranges_to_table(problem: &Problem, ranges: &[Range], moved: Moved) -> String {
-    let heading = format!(
+    let mut out = format!(
         "{}: how far each dimension can go alone, all others standing still\n",
         problem.name
     );
-    heading + &written(|out| write_ranges(out, problem, ranges, moved))
-}
-
-fn write_ranges(
-    out: &mut String,
-    problem: &Problem,
-    ranges: &[Range],
-    moved: Moved,
-) -> std::fmt::Result {
     if ranges.is_empty() {
-        return writeln!(
-            out,
-            "There is none: no distance, no number of a constraint, and no parameter that stands in an equation."
-        );
+        return out
+            + "There is none: no distance, no number of a constraint, and no parameter that stands in an equation.\n";
     }
-    write_moved(out, problem, moved)?;
-    writeln!(out)?;
+    write_moved(&mut out, problem, moved);
+    out.push('\n');
     let account = ranges.iter().map(|range| range.account.clone());
     let account = account.reduce(|mut all, one| {
         all.join(&one);
@@ -47,7 +35,7 @@ fn write_ranges(
             value_of(&range.high, "≥", Bound::Lower),
         ]);
     }
-    *out += &grid.render();
+    out += &grid.render();
     let scope = account.map_or(String::new(), |account| behind(" ", account.scope()));
     let left_out = account.map_or(String::new(), |account| match account.left_out_in_words() {
         words if words.is_empty() => words,
@@ -61,11 +49,10 @@ fn write_ranges(
              other coordinates held perhaps further. "
         }
     };
-    writeln!(
-        out,
+    out += &format!(
         "\n{loose}Every value is a limit{scope}, proved, and differs from the exact one by at most 1 in its last digit shown; but \
-         \"≤\" and \"≥\" say that no limit was met up to there, proved, and \"?\" that nothing could be proved beyond.{left_out}"
-    )?;
+         \"≤\" and \"≥\" say that no limit was met up to there, proved, and \"?\" that nothing could be proved beyond.{left_out}\n"
+    );
     for range in ranges {
         let ends = [
             (&range.low, "shrinks to", Bound::Upper),
@@ -74,21 +61,22 @@ fn write_ranges(
         for (end, verb, back) in ends {
             let name = problem.dimension_name(range.index);
             match end {
-                End::Limit(value, limit) => writeln!(
-                    out,
-                    "{name} {verb} {}: {}",
-                    certain_digits(*value),
-                    limit_in_words(problem, limit)
-                )?,
+                End::Limit(value, limit) => {
+                    out += &format!(
+                        "{name} {verb} {}: {}\n",
+                        certain_digits(*value),
+                        limit_in_words(problem, limit)
+                    )
+                }
                 End::Beyond(_) => {}
                 End::Unknown(value, reason) => {
                     let value = not_beyond(*value, back);
-                    writeln!(out, "{name} {verb} {value} at least: {reason}")?;
+                    out += &format!("{name} {verb} {value} at least: {reason}\n");
                 }
             }
         }
     }
-    Ok(())
+    out
 }
 
 fn value_of(end: &End, beyond: &str, back: Bound) -> String {

@@ -1,7 +1,7 @@
 //! Results for people.
 
 use super::certain_digits;
-use super::columns::{DIGITS, write_points, written};
+use super::columns::{DIGITS, write_points};
 use super::complete::{signs_in_words, tested_in_words};
 use super::document::names;
 use super::marks::Marks;
@@ -13,7 +13,6 @@ use crate::problem::{Problem, Shape, counted, either, list};
 use crate::remarks::moves;
 use crate::system::Located;
 use crate::track::{EndKind, Mode, Outcome, PathEnd, Solution, Space, Status};
-use std::fmt::{self, Write};
 
 /// The results as a text of several lines: what was found and what that means, the solutions,
 /// the numbers of the run. `tested`: where there are more distances than unknowns, what came of those that were left out.
@@ -92,9 +91,8 @@ pub fn to_first_table(problem: &Problem, outcome: &Outcome) -> Option<String> {
             Mode::Float => " (floats, not proved)",
         }
     );
-    // Writing to a string cannot fail.
     let marks = Marks::new(problem);
-    let _ = write_solution(&mut out, (problem, outcome, &marks), index);
+    write_solution(&mut out, (problem, outcome, &marks), index);
     Some(out)
 }
 
@@ -112,21 +110,7 @@ pub fn to_no_first(problem: &Problem, turns_at: Option<(f64, f64)>) -> String {
 }
 
 fn table(problem: &Problem, outcome: &Outcome, tested: Option<&Tested>, most: usize) -> String {
-    written(|out| write_table(out, problem, (outcome, tested), most))
-}
-
-fn write_table(
-    out: &mut String,
-    problem: &Problem,
-    (outcome, tested): (&Outcome, Option<&Tested>),
-    most: usize,
-) -> fmt::Result {
-    writeln!(
-        out,
-        "{}: {}",
-        problem.name,
-        verdict(problem, outcome, tested)
-    )?;
+    let mut out = format!("{}: {}\n", problem.name, verdict(problem, outcome, tested));
     let of_signs = outcome.signed.map(|signed| signed.found);
     let found = tested
         .and_then(|tested| tested.found)
@@ -134,31 +118,30 @@ fn write_table(
         .unwrap_or(0);
     if outcome.status == Status::Closed && outcome.solutions.is_empty() && found == 0 {
         match problem.impossible_triangle() {
-            Some(message) => writeln!(out, "There can be none: {message}.")?,
-            None if moves(problem).is_some() => writeln!(out, "{IT_MOVES}")?,
-            None => writeln!(out, "{NOTHING_FOUND}")?,
+            Some(message) => out += &format!("There can be none: {message}.\n"),
+            None if moves(problem).is_some() => out += &format!("{IT_MOVES}\n"),
+            None => out += &format!("{NOTHING_FOUND}\n"),
         }
     }
     let marks = Marks::new(problem);
     for index in 0..outcome.solutions.len().min(most) {
-        write_solution(out, (problem, outcome, &marks), index)?;
+        write_solution(&mut out, (problem, outcome, &marks), index);
     }
     let left = outcome.solutions.len().saturating_sub(most);
     if left > 0 {
-        writeln!(
-            out,
-            "\n... and {} more: `--all` prints them, `--json FILE` writes them, `--html FILE` shows them.",
+        out += &format!(
+            "\n... and {} more: `--all` prints them, `--json FILE` writes them, `--html FILE` shows them.\n",
             solutions(left)
-        )?;
+        );
     }
     if outcome.mode == Mode::Certified && !outcome.solutions.is_empty() {
-        writeln!(out, "\n{DIGITS}")?;
+        out += &format!("\n{DIGITS}\n");
     }
-    writeln!(out)?;
+    out.push('\n');
     for (label, value) in numbers(outcome) {
-        writeln!(out, "{label:<20}{value}")?;
+        out += &format!("{label:<20}{value}\n");
     }
-    Ok(())
+    out
 }
 
 /// What to do after a path without solutions.
@@ -414,7 +397,7 @@ fn write_marks(
     outcome: &Outcome,
     marks: &Marks,
     solution: &Solution,
-) -> fmt::Result {
+) {
     let mut parts = Vec::new();
     if let Some(place) = solution.place {
         parts.push(format!(
@@ -446,8 +429,8 @@ fn write_marks(
         parts.push(format!("flat, or too near to tell: {}", named(&flat)));
     }
     match parts.is_empty() {
-        true => Ok(()),
-        false => writeln!(out, "  ({})", parts.join("; ")),
+        true => {}
+        false => *out += &format!("  ({})\n", parts.join("; ")),
     }
 }
 
@@ -458,38 +441,33 @@ fn write_solution(
     out: &mut String,
     (problem, outcome, marks): (&Problem, &Outcome, &Marks),
     index: usize,
-) -> fmt::Result {
+) {
     let solution = &outcome.solutions[index];
-    write!(out, "\nSolution {}, class {}", index + 1, solution.class)?;
+    *out += &format!("\nSolution {}, class {}", index + 1, solution.class);
     if let Some(other) = solution.mirror_of {
-        write!(out, ", mirror image of solution {}", other + 1)?;
+        *out += &format!(", mirror image of solution {}", other + 1);
     }
     if solution.is_degenerate {
-        write!(out, ", degenerate (flat)")?;
+        *out += ", degenerate (flat)";
     }
     match solution.place.and_then(|place| place.folds) {
         None => {}
-        Some(0) => write!(out, ", reached without a fold")?,
-        Some(1) => write!(out, ", after a fold")?,
-        Some(folds) => write!(out, ", after {folds} folds")?,
+        Some(0) => *out += ", reached without a fold",
+        Some(1) => *out += ", after a fold",
+        Some(folds) => *out += &format!(", after {folds} folds"),
     }
     match outcome.mode {
-        Mode::Certified => writeln!(out, ", relative width {:.1e}", solution.width)?,
-        Mode::Float => writeln!(out)?,
+        Mode::Certified => *out += &format!(", relative width {:.1e}\n", solution.width),
+        Mode::Float => out.push('\n'),
     }
-    write_marks(out, problem, outcome, marks, solution)?;
+    write_marks(out, problem, outcome, marks, solution);
     let digits = |x: &Interval| digits(outcome.mode, x);
-    write_points(out, problem, &solution.points, digits)?;
+    write_points(out, problem, &solution.points, digits);
     write_objects(out, problem, outcome.mode, &solution.objects)
 }
 
 /// Objects that are not told by their points: a line for each.
-pub(super) fn write_objects(
-    out: &mut String,
-    problem: &Problem,
-    mode: Mode,
-    objects: &[Located],
-) -> fmt::Result {
+pub(super) fn write_objects(out: &mut String, problem: &Problem, mode: Mode, objects: &[Located]) {
     let digits = |x: &Interval| digits(mode, x);
     let place = |x: &[Interval; 3]| in_brackets(&x[..problem.dimension], &digits);
     for (object, at) in problem.objects.iter().zip(objects) {
@@ -497,11 +475,11 @@ pub(super) fn write_objects(
         match (&object.shape, at) {
             (Shape::FreeLine { .. }, Located::Line { point, direction }) => {
                 let (point, direction) = (place(point), place(direction));
-                writeln!(out, "  line {name}: through {point}, direction {direction}")?;
+                *out += &format!("  line {name}: through {point}, direction {direction}\n");
             }
             (Shape::FreePlane { .. }, Located::Plane { point, normal }) => {
                 let (point, normal) = (place(point), place(normal));
-                writeln!(out, "  plane {name}: through {point}, normal {normal}")?;
+                *out += &format!("  plane {name}: through {point}, normal {normal}\n");
             }
             (
                 Shape::Round { center, .. } | Shape::Arc { center, .. },
@@ -511,14 +489,13 @@ pub(super) fn write_objects(
                     object.kind(problem.dimension),
                     &problem.points[*center].name,
                 );
-                writeln!(
-                    out,
-                    "  {kind} {name}: centre {center}, radius {}",
+                *out += &format!(
+                    "  {kind} {name}: centre {center}, radius {}\n",
                     digits(radius)
-                )?;
+                );
             }
             (Shape::Number { .. }, Located::Number(value)) => {
-                writeln!(out, "  {name} = {}", digits(value))?;
+                *out += &format!("  {name} = {}\n", digits(value));
             }
             _ => {}
         }
@@ -537,7 +514,7 @@ pub(super) fn write_joints(
     problem: &Problem,
     objects: &[Located],
     digits: &dyn Fn(&Interval) -> String,
-) -> fmt::Result {
+) {
     let place = |x: &[Interval; 3]| in_brackets(&x[..problem.dimension], digits);
     for (object, at) in problem.objects.iter().zip(objects) {
         if let Located::Joint { turn, travel } = at {
@@ -549,7 +526,7 @@ pub(super) fn write_joints(
                 .map(|x| format!("drawn out by {}", digits(x)));
             let told: Vec<String> = turn.into_iter().chain(travel).collect();
             if !told.is_empty() {
-                writeln!(out, "  joint {}: {}", object.name, told.join(", "))?;
+                *out += &format!("  joint {}: {}\n", object.name, told.join(", "));
             }
         }
     }
@@ -561,10 +538,9 @@ pub(super) fn write_joints(
                 2 => format!("x axis {x}"),
                 _ => format!("x axis {x}, z axis {z}"),
             };
-            writeln!(out, "  body {}: at {}, {turned}", object.name, place(at))?;
+            *out += &format!("  body {}: at {}, {turned}\n", object.name, place(at));
         }
     }
-    Ok(())
 }
 
 /// The digits of a number that a mode is certain of.

@@ -1,28 +1,22 @@
 //! What a certificate proves, in words.
 
 use super::certain_digits;
-use super::columns::written;
 use crate::certificate::{Outcome, Verdict};
 use crate::constraint::{Symmetry, symmetry};
 use crate::interval::{Bound, Interval, point};
 use crate::problem::{Problem, counted};
-use std::fmt::Write;
 use std::time::Duration;
 
 /// The theorem that was checked, or the claim that failed, with the numbers of the check.
 pub fn theorem(verdict: &Verdict, time: Duration) -> String {
-    written(|out| write_theorem(out, verdict, time))
-}
-
-fn write_theorem(out: &mut String, verdict: &Verdict, time: Duration) -> std::fmt::Result {
     let name = &verdict.problem.name;
     let (low, high) = verdict.t_range;
     let (from, to) = (
         Bound::Lower.decimals(low, 6),
         Bound::Upper.decimals(high, 6),
     );
-    match &verdict.outcome {
-        Outcome::Verified if !verdict.arcs.is_empty() => write_edits(out, verdict)?,
+    let mut out = match &verdict.outcome {
+        Outcome::Verified if !verdict.arcs.is_empty() => edits(verdict),
         Outcome::Verified => {
             let count = verdict.solutions.len();
             let regular = regular_in_words(verdict);
@@ -36,82 +30,76 @@ fn write_theorem(out: &mut String, verdict: &Verdict, time: Duration) -> std::fm
                 ),
                 false => (format!("S is a closed curve, {regular}"), "S", "S"),
             };
-            writeln!(
-                out,
+            format!(
                 "{name}: VERIFIED.\n\
                  Theorem. Let H(X, t) = 0 be the equations of the problem in this certificate, \
                  for the exact decimals in it, and S {}.\n\
                  1. {first}.\n\
                  2. {curve} has exactly {} with t = 1{}, one in each of {}; {}.\n\
-                 3. On {on_it} t stays between {from} and {to}, and all lengths stay positive.",
+                 3. On {on_it} t stays between {from} and {to}, and all lengths stay positive.\n",
                 curve_in_words(verdict),
                 counted(count, "point"),
                 degenerate_in_words(verdict),
                 counted(count, "disjoint box"),
                 classes_in_words(&verdict.problem, &verdict.classes)
-            )?;
+            )
         }
         Outcome::Partial(reason) if verdict.is_edit => {
-            writeln!(
-                out,
+            let until = format!(
                 "{name}: INCOMPLETE. The certificate ends early: {reason}.\n\
-                 Verified: the last edit leads the figure without a fold to about t = {:.6}, and before it:",
+                 Verified: the last edit leads the figure without a fold to about t = {:.6}, and before it:\n",
                 high.max(0.0)
-            )?;
-            write_edits(out, verdict)?;
+            );
+            until + &edits(verdict)
         }
-        Outcome::Partial(reason) if verdict.tubes == 0 => writeln!(
-            out,
+        Outcome::Partial(reason) if verdict.tubes == 0 => format!(
             "{name}: INCOMPLETE. The certificate ends before its first tube: {reason}.\n\
-             Nothing was verified, and nothing is claimed of the curve through the sketch."
-        )?,
-        Outcome::Partial(reason) => writeln!(
-            out,
+             Nothing was verified, and nothing is claimed of the curve through the sketch.\n"
+        ),
+        Outcome::Partial(reason) => format!(
             "{name}: INCOMPLETE. The certificate ends early: {reason}.\n\
              Verified so far: an arc of the curve through the sketch, {}, with t between {from} and \
              {to}, and on it exactly {} with t = 1{}. Nothing is claimed of the rest of \
-             the curve.",
+             the curve.\n",
             regular_in_words(verdict),
             counted(verdict.solutions.len(), "point"),
             degenerate_in_words(verdict)
-        )?,
-        Outcome::NotProved(flaw) => writeln!(
-            out,
+        ),
+        Outcome::NotProved(flaw) => format!(
             "{name}: NOT PROVED. This claim may be true, but the checker's test is too coarse for it:\n\
-             {flaw}."
-        )?,
-        Outcome::Refuted(flaw) => writeln!(out, "{name}: REFUTED. This claim is false:\n{flaw}.")?,
-    }
+             {flaw}.\n"
+        ),
+        Outcome::Refuted(flaw) => format!("{name}: REFUTED. This claim is false:\n{flaw}.\n"),
+    };
     if matches!(verdict.outcome, Outcome::Verified | Outcome::Partial(_)) {
         for (k, solution) in verdict.solutions.iter().enumerate() {
             let what = match verdict.degenerate[k] {
                 true => ", degenerate (flat)",
                 false => "",
             };
-            writeln!(out, "  solution {}{what}", k + 1)?;
-            write_figure(out, verdict, solution)?;
+            out += &format!("  solution {}{what}\n", k + 1);
+            write_figure(&mut out, verdict, solution);
         }
     }
     let margin = match verdict.tubes {
         0 => String::new(),
         _ => format!(", smallest margin of a Krawczyk test {:.4}", verdict.margin),
     };
-    writeln!(
-        out,
-        "tubes checked {}{margin}, {:.3} s, written by {}",
+    out += &format!(
+        "tubes checked {}{margin}, {:.3} s, written by {}\n",
         verdict.tubes,
         time.as_secs_f64(),
         verdict.program.escape_debug()
-    )
+    );
+    out
 }
 
-fn write_figure(out: &mut String, verdict: &Verdict, figure: &[[Interval; 3]]) -> std::fmt::Result {
+fn write_figure(out: &mut String, verdict: &Verdict, figure: &[[Interval; 3]]) {
     for (point, place) in verdict.problem.points.iter().zip(figure) {
         let place = place.iter().take(verdict.problem.dimension);
         let place: Vec<String> = place.map(|&x| certain_digits(x)).collect();
-        writeln!(out, "    {:<12} {}", point.name, place.join("  "))?;
+        *out += &format!("    {:<12} {}\n", point.name, place.join("  "));
     }
-    Ok(())
 }
 
 /// How many of the solutions are degenerate.
@@ -154,15 +142,15 @@ fn degenerate_in_words(verdict: &Verdict) -> String {
 /// More edits than that are not told one by one.
 const SHOWN: usize = 12;
 
-fn write_edits(out: &mut String, verdict: &Verdict) -> std::fmt::Result {
+fn edits(verdict: &Verdict) -> String {
+    let mut out = String::new();
     let (name, count) = (&verdict.problem.name, verdict.arcs.len());
     if verdict.outcome == Outcome::Verified {
-        writeln!(
-            out,
+        out += &format!(
             "{name}: VERIFIED.\n\
              Theorem. Every figure below is the one and only continuation of the one before, the first one of the sketch: \
-             between the two there is exactly one figure on the way for every t, and none of them is singular."
-        )?;
+             between the two there is exactly one figure on the way for every t, and none of them is singular.\n"
+        );
     }
     for (k, arc) in verdict.arcs.iter().enumerate() {
         if k > 0 && k + SHOWN < count {
@@ -184,12 +172,12 @@ fn write_edits(out: &mut String, verdict: &Verdict) -> std::fmt::Result {
             ),
         };
         let kept = counted(arc.claim.kept.len(), "sign");
-        writeln!(out, "  edit {}: {what}: {end}; {kept} kept", k + 1)?;
+        out += &format!("  edit {}: {what}: {end}; {kept} kept\n", k + 1);
     }
-    match verdict.arcs.last() {
-        Some(arc) => write_figure(out, verdict, &arc.figure),
-        None => Ok(()),
+    if let Some(arc) = verdict.arcs.last() {
+        write_figure(&mut out, verdict, &arc.figure);
     }
+    out
 }
 
 fn classes_in_words(problem: &Problem, classes: &[u32]) -> String {

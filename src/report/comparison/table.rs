@@ -5,7 +5,6 @@ use crate::compare::{Knob, Row, Verdict, Way};
 use crate::report::columns::Grid;
 use crate::report::document::RowOf;
 use crate::track::Status;
-use std::fmt::Write;
 
 /// The comparison as lines of text, at most about 120 wide.
 pub fn comparison_to_table(compared: &Compared) -> String {
@@ -97,7 +96,7 @@ pub fn comparison_to_table(compared: &Compared) -> String {
         );
     }
     for remark in remarks {
-        let _ = writeln!(out, "  {remark}");
+        out += &format!("  {remark}\n");
     }
     for other in compared.others() {
         let seconds = other.seconds.map_or(String::new(), |s| format!(": {s} s"));
@@ -105,7 +104,7 @@ pub fn comparison_to_table(compared: &Compared) -> String {
             Some(n) => format!(", {n} real solutions up to reflection"),
             None => String::new(),
         };
-        let _ = writeln!(out, "  published: {}{seconds}{found}", other.method);
+        out += &format!("  published: {}{seconds}{found}\n", other.method);
     }
     if !comparison.sweep.is_empty() {
         out += &sweep(compared);
@@ -177,9 +176,8 @@ fn sweep(compared: &Compared) -> String {
         let switched = settings.clone().filter(|row| !switched_on(row).is_empty());
         let (switched, settings) = (switched.count(), settings.count());
         if switched > 0 {
-            let _ = writeln!(
-                out,
-                "  {}, {}: something was switched on at {switched} of {settings} settings; JSON and CSV say what",
+            out += &format!(
+                "  {}, {}: something was switched on at {switched} of {settings} settings; JSON and CSV say what\n",
                 way.method.name(),
                 way.space.name()
             );

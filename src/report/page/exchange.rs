@@ -3,7 +3,6 @@
 use super::Page;
 use crate::import::ELEMENTS;
 use crate::places::Each as _;
-use std::fmt::Write;
 
 impl Page {
     /// The figures as Wavefront OBJ: an object for each, its points as vertices and its bars as lines.
@@ -11,15 +10,14 @@ impl Page {
     pub fn to_obj(&self) -> String {
         let mut out = format!("# {}\n", one_line(&self.title));
         let mut first = 1;
-        // Writing to a string cannot fail.
         for figure in &self.figures {
-            let _ = writeln!(out, "o {}", one_line(&figure.name).replace(' ', "_"));
+            out += &format!("o {}\n", one_line(&figure.name).replace(' ', "_"));
             for p in figure.points.chunks_exact(3) {
-                let _ = writeln!(out, "v {} {} {}", p[0], p[1], p[2]);
+                out += &format!("v {} {} {}\n", p[0], p[1], p[2]);
             }
             for bar in &self.bars {
                 let [a, b] = bar.ends.each(|p| first + p);
-                let _ = writeln!(out, "l {a} {b}");
+                out += &format!("l {a} {b}\n");
             }
             first += self.points.len();
         }
@@ -47,9 +45,9 @@ impl Page {
             let layer: String = figure.name.chars().map(plain).take(31).collect();
             // Groups of a code and a number.
             let mut entity = |kind: &str, groups: &[(u32, f64)]| {
-                let _ = write!(out, "0\n{kind}\n8\n{layer}\n");
+                out += &format!("0\n{kind}\n8\n{layer}\n");
                 for (code, number) in groups {
-                    let _ = write!(out, "{code}\n{number}\n");
+                    out += &format!("{code}\n{number}\n");
                 }
             };
             let place = |p: usize, code: u32| {
@@ -103,11 +101,10 @@ impl Page {
         for figure in self.figures.iter().filter(|figure| figure.class.is_some()) {
             let (title, name) = (one_line(&self.title), one_line(&figure.name));
             let note = one_line(&figure.note);
-            let _ = writeln!(out, "{}\n{title}: {name}, {note}", self.points.len());
+            out += &format!("{}\n{title}: {name}, {note}\n", self.points.len());
             for (name, p) in self.points.iter().zip(figure.points.chunks_exact(3)) {
-                let _ = writeln!(
-                    out,
-                    "{:<6} {:18.12} {:18.12} {:18.12}",
+                out += &format!(
+                    "{:<6} {:18.12} {:18.12} {:18.12}\n",
                     atom(name),
                     p[0],
                     p[1],

@@ -5,7 +5,6 @@ use super::projection::{Projection, colour, escaped};
 use super::still::begin;
 use super::{Page, Path, Sample};
 use crate::order::InOrder;
-use std::fmt::{self, Write};
 
 /// Pictures a turn, more or less.
 const FRAMES: usize = 160;
@@ -32,8 +31,78 @@ impl Page {
     pub fn to_moving_svg(&self) -> Option<String> {
         let path = self.paths.first()?;
         let mut out = String::new();
-        // Writing to a string cannot fail.
-        let _ = self.write_moving(&mut out, path);
+        let frames = self.frames(path);
+        let total = frames.last().map_or(1.0, |f| f.seconds).max(0.1);
+        let times: Vec<String> = frames
+            .iter()
+            .map(|f| format!("{:.4}", f.seconds / total))
+            .collect();
+        let times = times.join(";");
+        let extents = frames.iter().map(|f| self.extent(f.points, f.outlines));
+        let extents: Vec<Vec<f64>> = extents.collect();
+        let projection = Projection::of(self, extents.iter().map(Vec::as_slice));
+        let on_paper = |numbers: &[f64]| -> Vec<[f64; 2]> {
+            let places = projection.places(numbers).into_iter();
+            places
+                .map(|[x, y, _]| [x, y].map(|x| SIDE / 2.0 + 0.44 * SIDE * x))
+                .collect()
+        };
+        let places: Vec<Vec<[f64; 2]>> = frames.iter().map(|f| on_paper(f.points)).collect();
+        begin(&mut out, SIDE, SIDE + CHART, &self.title);
+        let animate = |what: &str, values: Vec<String>| {
+            format!(
+                "<animate attributeName=\"{what}\" dur=\"{total:.2}s\" repeatCount=\"indefinite\" \
+                 keyTimes=\"{times}\" values=\"{}\"/>\n",
+                values.join(";")
+            )
+        };
+        for (k, shape) in self.shapes.iter().enumerate() {
+            let drawn = frames.iter().map(|f| {
+                let numbers = f.outlines.get(k)?;
+                Drawn::new(
+                    shape,
+                    numbers,
+                    &on_paper(numbers),
+                    0.44 * SIDE / projection.size(),
+                )
+            });
+            let Some(drawn) = drawn.collect::<Option<Vec<Drawn>>>() else {
+                continue;
+            };
+            let Some(first) = drawn.first() else {
+                continue;
+            };
+            let style = first.style(colour(Some(0)));
+            out += &format!("<path d=\"{}\" {style}>\n", first.path());
+            out += &animate("d", drawn.iter().map(Drawn::path).collect());
+            out += "</path>\n";
+        }
+        for bar in &self.bars {
+            let [a, b] = bar.ends;
+            let line = |p: &Vec<[f64; 2]>| {
+                format!(
+                    "M{:.1} {:.1}L{:.1} {:.1}",
+                    p[a][0], p[a][1], p[b][0], p[b][1]
+                )
+            };
+            out += &format!(
+                "<path d=\"{}\" stroke=\"{}\" stroke-width=\"2.6\">\n",
+                places.first().map_or(String::new(), line),
+                colour(Some(0))
+            );
+            out += &animate("d", places.iter().map(line).collect());
+            out += "</path>\n";
+        }
+        for k in 0..self.points.len() {
+            out += "<circle r=\"4\" fill=\"#fff\" stroke=\"#20252b\" stroke-width=\"1.4\">\n";
+            for (axis, what) in ["cx", "cy"].into_iter().enumerate() {
+                let values = places.iter().map(|p| format!("{:.1}", p[k][axis]));
+                out += &animate(what, values.collect());
+            }
+            out += "</circle>\n";
+        }
+        self.write_chart(&mut out, path, &frames, animate);
+        out += "</svg>\n";
         Some(out)
     }
 
@@ -78,93 +147,13 @@ impl Page {
         frames
     }
 
-    fn write_moving(&self, out: &mut String, path: &Path) -> fmt::Result {
-        let frames = self.frames(path);
-        let total = frames.last().map_or(1.0, |f| f.seconds).max(0.1);
-        let times: Vec<String> = frames
-            .iter()
-            .map(|f| format!("{:.4}", f.seconds / total))
-            .collect();
-        let times = times.join(";");
-        let extents = frames.iter().map(|f| self.extent(f.points, f.outlines));
-        let extents: Vec<Vec<f64>> = extents.collect();
-        let projection = Projection::of(self, extents.iter().map(Vec::as_slice));
-        let on_paper = |numbers: &[f64]| -> Vec<[f64; 2]> {
-            let places = projection.places(numbers).into_iter();
-            places
-                .map(|[x, y, _]| [x, y].map(|x| SIDE / 2.0 + 0.44 * SIDE * x))
-                .collect()
-        };
-        let places: Vec<Vec<[f64; 2]>> = frames.iter().map(|f| on_paper(f.points)).collect();
-        begin(out, SIDE, SIDE + CHART, &self.title)?;
-        let animate = |out: &mut String, what: &str, values: Vec<String>| {
-            writeln!(
-                out,
-                "<animate attributeName=\"{what}\" dur=\"{total:.2}s\" repeatCount=\"indefinite\" \
-                 keyTimes=\"{times}\" values=\"{}\"/>",
-                values.join(";")
-            )
-        };
-        for (k, shape) in self.shapes.iter().enumerate() {
-            let drawn = frames.iter().map(|f| {
-                let numbers = f.outlines.get(k)?;
-                Drawn::new(
-                    shape,
-                    numbers,
-                    &on_paper(numbers),
-                    0.44 * SIDE / projection.size(),
-                )
-            });
-            let Some(drawn) = drawn.collect::<Option<Vec<Drawn>>>() else {
-                continue;
-            };
-            let Some(first) = drawn.first() else {
-                continue;
-            };
-            let style = first.style(colour(Some(0)));
-            writeln!(out, "<path d=\"{}\" {style}>", first.path())?;
-            animate(out, "d", drawn.iter().map(Drawn::path).collect())?;
-            writeln!(out, "</path>")?;
-        }
-        for bar in &self.bars {
-            let [a, b] = bar.ends;
-            let line = |p: &Vec<[f64; 2]>| {
-                format!(
-                    "M{:.1} {:.1}L{:.1} {:.1}",
-                    p[a][0], p[a][1], p[b][0], p[b][1]
-                )
-            };
-            writeln!(
-                out,
-                "<path d=\"{}\" stroke=\"{}\" stroke-width=\"2.6\">",
-                places.first().map_or(String::new(), line),
-                colour(Some(0))
-            )?;
-            animate(out, "d", places.iter().map(line).collect())?;
-            writeln!(out, "</path>")?;
-        }
-        for k in 0..self.points.len() {
-            writeln!(
-                out,
-                "<circle r=\"4\" fill=\"#fff\" stroke=\"#20252b\" stroke-width=\"1.4\">"
-            )?;
-            for (axis, what) in ["cx", "cy"].into_iter().enumerate() {
-                let values = places.iter().map(|p| format!("{:.1}", p[k][axis]));
-                animate(out, what, values.collect())?;
-            }
-            writeln!(out, "</circle>")?;
-        }
-        self.write_chart(out, path, &frames, animate)?;
-        writeln!(out, "</svg>")
-    }
-
     fn write_chart(
         &self,
         out: &mut String,
         path: &Path,
         frames: &[Frame],
-        animate: impl Fn(&mut String, &str, Vec<String>) -> fmt::Result,
-    ) -> fmt::Result {
+        animate: impl Fn(&str, Vec<String>) -> String,
+    ) {
         let all = || {
             path.samples
                 .iter()
@@ -178,53 +167,47 @@ impl Page {
         let x = |at: f64| 34.0 + (SIDE - 50.0) * at / length;
         let y = |t: f64| SIDE + 12.0 + (CHART - 36.0) * (high - t) / (high - low).max(1e-300);
         for level in &path.levels {
-            writeln!(
-                out,
+            *out += &format!(
                 "<path d=\"M34 {0:.1}H{1}\" stroke=\"#dedbd3\" stroke-dasharray=\"4 4\"/>\
-                 <text x=\"26\" y=\"{2:.1}\" text-anchor=\"end\" font-size=\"12\" fill=\"#68707a\">{3}</text>",
+                 <text x=\"26\" y=\"{2:.1}\" text-anchor=\"end\" font-size=\"12\" fill=\"#68707a\">{3}</text>\n",
                 y(level.t),
                 SIDE - 16.0,
                 y(level.t) + 4.0,
                 escaped(&level.label)
-            )?;
+            );
         }
         let curve: Vec<String> = frames
             .iter()
             .map(|f| format!("{:.1} {:.1}", x(f.at), y(f.t)))
             .collect();
-        writeln!(
-            out,
-            "<path d=\"M{}\" fill=\"none\" stroke=\"#20252b\" stroke-width=\"1.5\"/>",
+        *out += &format!(
+            "<path d=\"M{}\" fill=\"none\" stroke=\"#20252b\" stroke-width=\"1.5\"/>\n",
             curve.join("L")
-        )?;
+        );
         for figure in self.figures.iter().filter(|f| f.class.is_some()) {
             if let (Some(at), Some(t)) = (figure.at, figure.t) {
-                writeln!(
-                    out,
-                    "<circle cx=\"{:.1}\" cy=\"{:.1}\" r=\"4.5\" fill=\"{}\" stroke=\"#fff\"/>",
+                *out += &format!(
+                    "<circle cx=\"{:.1}\" cy=\"{:.1}\" r=\"4.5\" fill=\"{}\" stroke=\"#fff\"/>\n",
                     x(at),
                     y(t),
                     colour(figure.class)
-                )?;
+                );
             }
         }
-        writeln!(
-            out,
+        *out += &format!(
             "<text x=\"34\" y=\"{}\" font-size=\"12\" fill=\"#68707a\">{} along the path; dots are \
-             solutions</text>\n<circle r=\"4.5\" fill=\"#b35300\">",
+             solutions</text>\n<circle r=\"4.5\" fill=\"#b35300\">\n",
             SIDE + CHART - 8.0,
             escaped(&path.parameter)
-        )?;
-        animate(
-            out,
+        );
+        *out += &animate(
             "cx",
             frames.iter().map(|f| format!("{:.1}", x(f.at))).collect(),
-        )?;
-        animate(
-            out,
+        );
+        *out += &animate(
             "cy",
             frames.iter().map(|f| format!("{:.1}", y(f.t))).collect(),
-        )?;
-        writeln!(out, "</circle>")
+        );
+        *out += "</circle>\n";
     }
 }

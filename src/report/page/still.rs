@@ -5,7 +5,6 @@ use super::projection::{Projection, colour, escaped};
 use super::{Figure, Page};
 use crate::order::InOrder;
 use crate::places::Each as _;
-use std::fmt::{self, Write};
 
 /// More figures are not drawn: a picture with hundreds shows none.
 const MOST: usize = 12;
@@ -18,12 +17,6 @@ impl Page {
     /// The first figures of the list, the sketch among them, as one picture: SVG.
     pub fn to_svg(&self) -> String {
         let mut out = String::new();
-        // Writing to a string cannot fail.
-        let _ = self.write_svg(&mut out);
-        out
-    }
-
-    fn write_svg(&self, out: &mut String) -> fmt::Result {
         let figures: Vec<&Figure> = self.figures.iter().take(MOST).collect();
         let columns = figures.len().clamp(1, COLUMNS);
         let rows = figures.len().div_ceil(columns).max(1);
@@ -36,43 +29,41 @@ impl Page {
         let alone = |figure: &&Figure| Projection::of(self, std::iter::once(&extent(figure)[..]));
         let largest = figures.iter().map(alone);
         let largest = largest.max_by(|a, b| a.size().total_cmp(&b.size()));
-        begin(out, width, height, &self.title)?;
+        begin(&mut out, width, height, &self.title);
         let left = self.figures.len() - figures.len();
         let more = if left > 0 {
             format!(" (and {left} more)")
         } else {
             String::new()
         };
-        writeln!(
-            out,
-            "<text x=\"16\" y=\"27\" font-size=\"17\" font-weight=\"600\">{}{more}</text>",
+        out += &format!(
+            "<text x=\"16\" y=\"27\" font-size=\"17\" font-weight=\"600\">{}{more}</text>\n",
             escaped(&self.title)
-        )?;
+        );
         for (k, figure) in figures.iter().enumerate() {
             let x = SIDE * (k % columns) as f64;
             let y = 40.0 + (SIDE + WORDS) * (k / columns) as f64;
-            writeln!(out, "<g transform=\"translate({x},{y})\">")?;
+            out += &format!("<g transform=\"translate({x},{y})\">\n");
             if let Some(largest) = &largest {
-                self.draw(out, &largest.centred(self, &extent(figure)), figure)?;
+                self.draw(&mut out, &largest.centred(self, &extent(figure)), figure);
             }
             let middle = SIDE / 2.0;
-            writeln!(
-                out,
-                "<text x=\"{middle}\" y=\"{}\" text-anchor=\"middle\" font-size=\"14\">{}</text>",
+            out += &format!(
+                "<text x=\"{middle}\" y=\"{}\" text-anchor=\"middle\" font-size=\"14\">{}</text>\n",
                 SIDE + 12.0,
                 escaped(&figure.name)
-            )?;
-            writeln!(
-                out,
-                "<text x=\"{middle}\" y=\"{}\" text-anchor=\"middle\" font-size=\"11.5\" fill=\"#68707a\">{}</text>\n</g>",
+            );
+            out += &format!(
+                "<text x=\"{middle}\" y=\"{}\" text-anchor=\"middle\" font-size=\"11.5\" fill=\"#68707a\">{}</text>\n</g>\n",
                 SIDE + 29.0,
                 escaped(&figure.note)
-            )?;
+            );
         }
-        writeln!(out, "</svg>")
+        out += "</svg>\n";
+        out
     }
 
-    fn draw(&self, out: &mut String, projection: &Projection, figure: &Figure) -> fmt::Result {
+    fn draw(&self, out: &mut String, projection: &Projection, figure: &Figure) {
         let radius = 0.40 * SIDE;
         let places: Vec<[f64; 3]> = projection
             .places(&figure.points)
@@ -86,7 +77,7 @@ impl Page {
                 .collect();
             if let Some(drawn) = Drawn::new(shape, numbers, &on_paper, radius / projection.size()) {
                 let style = drawn.style(colour(figure.class));
-                writeln!(out, "<path d=\"{}\" {style}/>", drawn.path())?;
+                *out += &format!("<path d=\"{}\" {style}/>\n", drawn.path());
             }
         }
         let depth = |ends: [usize; 2]| places[ends[0]][2] + places[ends[1]][2];
@@ -99,23 +90,21 @@ impl Page {
                 2 => 1.0,
                 _ => 0.68 + 0.16 * depth(ends).clamp(-2.0, 2.0),
             };
-            writeln!(
-                out,
-                "<path d=\"M{:.1} {:.1}L{:.1} {:.1}\" stroke=\"{}\" stroke-width=\"{:.2}\" stroke-opacity=\"{near:.2}\"/>",
+            *out += &format!(
+                "<path d=\"M{:.1} {:.1}L{:.1} {:.1}\" stroke=\"{}\" stroke-width=\"{:.2}\" stroke-opacity=\"{near:.2}\"/>\n",
                 a[0],
                 a[1],
                 b[0],
                 b[1],
                 colour(figure.class),
                 width * near
-            )?;
+            );
         }
         let dot = (60.0 / places.len().max(1) as f64).clamp(0.8, 3.4);
         for [x, y, _] in &places {
-            writeln!(
-                out,
-                "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{dot:.1}\" fill=\"#fff\" stroke=\"#20252b\"/>"
-            )?;
+            *out += &format!(
+                "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{dot:.1}\" fill=\"#fff\" stroke=\"#20252b\"/>\n"
+            );
         }
         if places.len() <= 16 {
             let count = places.len() as f64;
@@ -123,27 +112,24 @@ impl Page {
             for (name, [x, y, _]) in self.points.iter().zip(&places) {
                 let (dx, dy) = (x - middle[0], y - middle[1]);
                 let far = dx.hypot(dy).max(1e-9);
-                writeln!(
-                    out,
-                    "<text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"middle\" font-size=\"11.5\">{}</text>",
+                *out += &format!(
+                    "<text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"middle\" font-size=\"11.5\">{}</text>\n",
                     x + 12.0 * dx / far,
                     y + 11.0 * dy / far + 4.0,
                     escaped(name)
-                )?;
+                );
             }
         }
-        Ok(())
     }
 }
 
 /// The head of a picture on white.
-pub(super) fn begin(out: &mut String, width: f64, height: f64, title: &str) -> fmt::Result {
-    writeln!(
-        out,
+pub(super) fn begin(out: &mut String, width: f64, height: f64, title: &str) {
+    *out += &format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" width=\"{width}\" \
          height=\"{height}\" font-family=\"system-ui, 'DejaVu Sans', sans-serif\" fill=\"#20252b\" \
          stroke-linecap=\"round\" stroke-linejoin=\"round\">\n<title>{}</title>\n\
-         <rect width=\"{width}\" height=\"{height}\" rx=\"8\" fill=\"#fff\"/>",
+         <rect width=\"{width}\" height=\"{height}\" rx=\"8\" fill=\"#fff\"/>\n",
         escaped(title)
-    )
+    );
 }

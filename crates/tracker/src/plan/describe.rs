@@ -2,7 +2,6 @@
 
 use super::{Arm, Plan};
 use crate::problem::Problem;
-use std::fmt::Write;
 
 impl Plan {
     /// The plan, one instruction per line, with its driving parameters k1, k2, … and its removed
@@ -42,20 +41,16 @@ impl Plan {
                     }
                 })
                 .collect();
-            // Writing to a string cannot fail.
-            let _ = match (space, arms.as_slice()) {
-                (false, [a]) => writeln!(text, "{p} = interCL({a}, l1)"),
-                (true, [a]) => writeln!(text, "{p} = interSL({a}, l1)"),
-                (false, [a, b]) => writeln!(text, "{p} = interCC({a}, {b})"),
-                (_, [a, b]) => writeln!(text, "{p} = interSSP({a}, {b}, pl1)"),
+            text += &match (space, arms.as_slice()) {
+                (false, [a]) => format!("{p} = interCL({a}, l1)\n"),
+                (true, [a]) => format!("{p} = interSL({a}, l1)\n"),
+                (false, [a, b]) => format!("{p} = interCC({a}, {b})\n"),
+                (_, [a, b]) => format!("{p} = interSSP({a}, {b}, pl1)\n"),
                 (_, [a, b, c]) => {
                     circles += 1;
-                    writeln!(
-                        text,
-                        "c{circles} = interSS({a}, {b})\n{p} = interCS(c{circles}, {c})"
-                    )
+                    format!("c{circles} = interSS({a}, {b})\n{p} = interCS(c{circles}, {c})\n")
                 }
-                _ => Ok(()),
+                _ => String::new(),
             };
         }
         let list = |items: Vec<String>| {
@@ -72,10 +67,7 @@ impl Plan {
                 .map(|e| problem.distance_name(e))
                 .collect(),
         );
-        let _ = write!(
-            text,
-            "driving parameters: {parameters}\nremoved constraints: {removed}\n"
-        );
+        text += &format!("driving parameters: {parameters}\nremoved constraints: {removed}\n");
         text
     }
 }

@@ -2,7 +2,6 @@
 
 use super::{Decimal, Distance, Item, Pose, Problem, Shape, Target};
 use crate::constraint::KINDS;
-use std::fmt::Write;
 
 impl Problem {
     /// The problem as the text of a file, which [`Problem::parse`] reads back as an equal one.
@@ -19,28 +18,21 @@ impl Problem {
     /// assert_eq!(again, problem);
     /// ```
     pub fn to_toml(&self) -> String {
-        let mut out = String::new();
-        // Writing to a string cannot fail.
-        let _ = self.write_toml(&mut out);
-        out
-    }
-
-    fn write_toml(&self, out: &mut String) -> std::fmt::Result {
         let name = |p: usize| quoted(&self.points[p].name);
-        writeln!(out, "name = {}", quoted(&self.name))?;
-        writeln!(out, "dimension = {}", self.dimension)?;
+        let mut out = format!("name = {}\n", quoted(&self.name));
+        out += &format!("dimension = {}\n", self.dimension);
         if !self.source.is_empty() {
-            writeln!(out, "source = {}", quoted(&self.source))?;
+            out += &format!("source = {}\n", quoted(&self.source));
         }
-        writeln!(out, "\n[points]")?;
+        out += "\n[points]\n";
         for point in &self.points {
             let coordinates = point.sketch.iter().take(self.dimension).map(number);
             let coordinates = coordinates.collect::<Vec<_>>().join(", ");
             let key = toml_edit::Key::new(&point.name);
-            writeln!(out, "{key} = [{coordinates}]")?;
+            out += &format!("{key} = [{coordinates}]\n");
         }
-        self.write_objects(out)?;
-        writeln!(out, "\n[constraints]")?;
+        self.write_objects(&mut out);
+        out += "\n[constraints]\n";
         let is_length = |d: &&Distance| matches!(d.target, Target::Length(_));
         let line = |distance: &Distance| {
             let [a, b] = distance.points.map(name);
@@ -51,43 +43,41 @@ impl Problem {
         let lengths: Vec<String> = distances.clone().filter(is_length).map(line).collect();
         let squares = distances.filter(|d| !is_length(d)).map(line).collect();
         write_list(
-            out,
+            &mut out,
             "distances",
             [lengths, self.entries("distances")].concat(),
-        )?;
-        write_list(out, "squared_distances", squares)?;
+        );
+        write_list(&mut out, "squared_distances", squares);
         for kind in KINDS.iter().filter(|kind| kind.key != "distances") {
-            write_list(out, kind.key, self.entries(kind.key))?;
+            write_list(&mut out, kind.key, self.entries(kind.key));
         }
         let orientations = self.orientations.iter().map(|one| {
             let points = one.points.iter().map(|&p| name(p));
             let parts: Vec<String> = points.chain([quoted(one.sign())]).collect();
             format!("[{}]", parts.join(", "))
         });
-        write_list(out, "orientation", orientations.collect())?;
+        write_list(&mut out, "orientation", orientations.collect());
         let homotopy = &self.homotopy;
         let reference = homotopy.reference.iter().map(|&p| name(p));
-        writeln!(out, "\n[homotopy]")?;
+        out += "\n[homotopy]\n";
         if !self.is_absolute() {
-            writeln!(
-                out,
-                "reference = [{}]",
+            out += &format!(
+                "reference = [{}]\n",
                 reference.collect::<Vec<_>>().join(", ")
-            )?;
+            );
         }
         if let Some(bend) = self.distances.get(homotopy.bend) {
             let [a, b] = bend.points.map(name);
-            writeln!(out, "bend = [{a}, {b}]")?;
+            out += &format!("bend = [{a}, {b}]\n");
         }
-        writeln!(
-            out,
-            "bend_coefficient = {}",
+        out += &format!(
+            "bend_coefficient = {}\n",
             number(&homotopy.bend_coefficient)
-        )?;
+        );
         if homotopy.detour != Decimal::from(0) {
-            writeln!(out, "detour = {}", number(&homotopy.detour))?;
+            out += &format!("detour = {}\n", number(&homotopy.detour));
         }
-        Ok(())
+        out
     }
 
     /// The entries of one kind of constraints.
@@ -110,7 +100,7 @@ impl Problem {
 
     /// The tables of objects. In each they stand in the problem's order; the tables themselves go by
     /// [`super::vocabulary::TABLES`].
-    fn write_objects(&self, out: &mut String) -> std::fmt::Result {
+    fn write_objects(&self, out: &mut String) {
         let name = |p: &usize| quoted(&self.points[*p].name);
         let names = |points: &[usize]| points.iter().map(name).collect::<Vec<_>>().join(", ");
         let numbers = |of: &[Decimal; 3]| {
@@ -124,7 +114,7 @@ impl Problem {
             });
             for (index, object) in objects.enumerate() {
                 if index == 0 {
-                    writeln!(out, "\n[{table}]")?;
+                    *out += &format!("\n[{table}]\n");
                 }
                 let text = match &object.shape {
                     Shape::Line(points) => format!("[{}]", names(points)),
@@ -178,38 +168,36 @@ impl Problem {
                         format!("{{ {} }}", members.collect::<Vec<_>>().join(", "))
                     }
                 };
-                writeln!(out, "{} = {text}", toml_edit::Key::new(&object.name))?;
+                *out += &format!("{} = {text}\n", toml_edit::Key::new(&object.name));
             }
         }
         let placed = self.objects.iter();
         let placed = placed.filter_map(|object| Some((&object.name, object.place()?)));
         for (index, (name, pose)) in placed.enumerate() {
             if index == 0 {
-                writeln!(out, "\n[places]")?;
+                *out += "\n[places]\n";
             }
-            writeln!(
-                out,
-                "{} = {{ at = {}, z = {}, x = {} }}",
+            *out += &format!(
+                "{} = {{ at = {}, z = {}, x = {} }}\n",
                 toml_edit::Key::new(name),
                 all_three(&pose.at),
                 all_three(&pose.z),
                 all_three(&pose.x)
-            )?;
+            );
         }
-        Ok(())
     }
 }
 
 /// A key and its entries, one a line, unless there are none.
-fn write_list(out: &mut String, key: &str, entries: Vec<String>) -> std::fmt::Result {
+fn write_list(out: &mut String, key: &str, entries: Vec<String>) {
     if entries.is_empty() {
-        return Ok(());
+        return;
     }
-    writeln!(out, "{key} = [")?;
+    *out += &format!("{key} = [\n");
     for entry in entries {
-        writeln!(out, "    {entry},")?;
+        *out += &format!("    {entry},\n");
     }
-    writeln!(out, "]")
+    *out += "]\n";
 }
 
 fn all_three(of: &[Decimal; 3]) -> String {
