@@ -1,6 +1,6 @@
 //! `krawl compare`: what each mode and space, and each degree of accuracy, costs on problems.
 
-use super::output::{self, Destination};
+use super::output::{self, Destination, in_file};
 use super::results::Results;
 use super::{CLOSED, STOPPED, interrupt};
 use krawl::compare::{Comparison, Effort, Method, compare, record_path};
@@ -77,7 +77,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
     }
     let folder = arguments.output.as_deref();
     if let Some(folder) = folder {
-        fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+        fs::create_dir_all(folder).map_err(in_file(folder))?;
     }
 
     let effort = Effort {
@@ -99,7 +99,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
         };
         let result = compare(&subject.problem, &effort, &mut control);
         line.clear();
-        let comparison = result.map_err(|error| format!("{}: {error}", file.display()))?;
+        let comparison = result.map_err(in_file(file))?;
         let compared = Compared {
             comparison,
             published: subject.published,
@@ -132,7 +132,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
 fn read(file: &Path) -> Result<Subject, String> {
     let (problem, published) =
         Problem::read_with_published(file).map_err(|error| error.to_string())?;
-    Homotopy::new(&problem).map_err(|error| format!("{}: {error}", file.display()))?;
+    Homotopy::new(&problem).map_err(in_file(file))?;
     Ok(Subject { problem, published })
 }
 

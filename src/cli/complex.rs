@@ -1,6 +1,6 @@
 //! `krawl complex`: all complex solutions of a problem.
 
-use super::output::{self, Beside};
+use super::output::{self, Beside, in_file};
 use super::results::Results;
 use super::template::{Search, TemplateText, read};
 use super::{CLOSED, INCOMPLETE, STOPPED, in_pool, interrupt};
@@ -96,10 +96,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
             Some(text) => text.prove(&lowered)?,
             None => {
                 let fibre = arguments.search.fill(&lowered, None, &line);
-                Template::new(
-                    &problem.name,
-                    fibre.map_err(|error| format!("{file}: {error}"))?,
-                )
+                Template::new(&problem.name, fibre.map_err(in_file(&arguments.file))?)
             }
         };
         Ok::<_, String>(solve(&lowered, &template, &ways))
@@ -112,7 +109,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
                 let bytes = set.to_bytes();
                 results.note(cert.write(&bytes));
                 let verdict = in_pool(arguments.search.threads, || verify_complex_set(&bytes))?;
-                let verdict = verdict.map_err(|e| format!("{file}: {e}"))?;
+                let verdict = verdict.map_err(in_file(&arguments.file))?;
                 if let Some(ComplexFlaw::False(why) | ComplexFlaw::NotProved(why)) = verdict.flaw {
                     output::complain(&format!(
                         "{file}: the certificate is written, but `krawl verify` does not prove it: {why}"

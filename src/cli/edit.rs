@@ -1,7 +1,7 @@
 //! `krawl edit`: changes dimensions and takes the figure along.
 
 use super::measured::Measured;
-use super::output::{self, Beside, Certificate, Refusal};
+use super::output::{self, Beside, Certificate, Refusal, in_file};
 use super::pictures::Pictures;
 use super::results::Results;
 use super::take::check_format;
@@ -125,7 +125,6 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
     }
     let mut loaded = arguments.source.load()?;
     let mut problem = loaded.problem.clone();
-    let in_file = |error: &dyn std::fmt::Display| in_file(file, error);
     let options = Options {
         extended: !arguments.no_extended,
         ..arguments.left_out.options()
@@ -139,15 +138,15 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
     }
     let mut named = Vec::new();
     for text in &arguments.set {
-        let (name, value) = Setting::split(&problem, text).map_err(|e| in_file(&e))?;
+        let (name, value) = Setting::split(&problem, text).map_err(in_file(file))?;
         match loaded.set_cell(name, value) {
-            Some(set) => set.map_err(|e| in_file(&e))?,
+            Some(set) => set.map_err(in_file(file))?,
             None => named.push((name, value)),
         }
     }
-    let asked = Asked::new(&problem, &named).map_err(|e| in_file(&e))?;
+    let asked = Asked::new(&problem, &named).map_err(in_file(file))?;
     let led: Vec<usize> = asked.given.iter().map(|setting| setting.index).collect();
-    loaded.check_numbers(&led).map_err(|e| in_file(&e))?;
+    loaded.check_numbers(&led).map_err(in_file(file))?;
     let mut followed = match arguments.set.is_empty() {
         true => Followed::default(),
         false => loaded.followed(&problem, &asked.given),
@@ -157,18 +156,18 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
             "no dimension of the sketch follows from {}: there is nothing to change",
             arguments.set.join(", ")
         );
-        return Err(in_file(&[&[text], &followed.warnings[..]].concat().join("; ")).into());
+        return Err(in_file(file)([&[text], &followed.warnings[..]].concat().join("; ")).into());
     }
     let numbers = asked.numbers().chain(followed.numbers()).collect();
     let asked = Asked::led(&problem, asked.parameters, numbers);
-    let asked = asked.map_err(|e| in_file(&followed.in_error(&e)))?;
+    let asked = asked.map_err(|e| in_file(file)(followed.in_error(&e)))?;
     let is_freecad = input::format(file) == Some(Format::FreeCad);
     if arguments.out.is_some()
         && !is_freecad
         && let Some(index) = asked.straight(&problem)
     {
         let name = problem.dimension_name(index);
-        return Err(in_file(&format!(
+        return Err(in_file(file)(format!(
             "{name}: under `angles` a file has none of 0 or 180 degrees, nor one beyond that is computed: leave out --out, or say `turns` in the file"
         ))
         .into());
@@ -179,10 +178,10 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
     problem = asked.problem;
     let drags = arguments.drag.iter();
     let drags = drags.map(|text| Drag::parse(&problem, text));
-    let drags: Vec<Drag> = drags.collect::<Result<_, _>>().map_err(|e| in_file(&e))?;
-    Drag::check(&problem, &drags).map_err(|e| in_file(&e))?;
+    let drags: Vec<Drag> = drags.collect::<Result<_, _>>().map_err(in_file(file))?;
+    Drag::check(&problem, &drags).map_err(in_file(file))?;
     if drags.is_empty() {
-        Setting::check(&problem, &settings).map_err(|e| in_file(&e))?;
+        Setting::check(&problem, &settings).map_err(in_file(file))?;
     }
     let (mut account, mut astray) = (None, None);
     let mut led = settings.clone();
@@ -250,7 +249,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
         let mut changed = Setting::applied(&given, &loaded.problem);
         changed.parameters = asked.parameters;
         let bytes = loaded.rewritten(file, &changed, &points, &objects);
-        let bytes = bytes.map_err(|e| in_file(&e))?;
+        let bytes = bytes.map_err(in_file(file))?;
         results.note(Beside::new(out)?.write(&bytes));
     }
     results.print(|| {
@@ -293,16 +292,16 @@ pub(super) fn certified(
     let (whole, mut account) = input::provable(file, problem)?;
     if !account.left_out.is_empty() {
         let session = Session::open(problem);
-        let mut session = session.map_err(|error| in_file(file, &error))?;
+        let mut session = session.map_err(in_file(file))?;
         let (proved, stop) = tried(&mut session);
         if let Some(reason) = stop {
             let text = format!("no certificate was written: {reason}");
-            output::complain(&in_file(file, &text));
+            output::complain(&in_file(file)(text));
             return Ok(None);
         }
         account = proved;
     }
-    let settings = carried(settings, (problem, &whole)).map_err(|error| in_file(file, &error))?;
+    let settings = carried(settings, (problem, &whole)).map_err(in_file(file))?;
     Ok(Some(Certified {
         problem: whole,
         settings,
@@ -354,17 +353,13 @@ pub(super) fn commit(
         && stop.kind == StopKind::Vanishes
     {
         let text = format!("no certificate was written: {stop}");
-        output::complain(&in_file(file, &text));
+        output::complain(&in_file(file)(text));
         return Ok((true, None));
     }
     match beside.commit(writer.finish().map(|_| ())) {
         false => Ok((false, None)),
         true => Ok((true, check_written(path, false, quiet)?)),
     }
-}
-
-fn in_file(file: &Path, error: &dyn std::fmt::Display) -> String {
-    format!("{}: {error}", file.display())
 }
 
 /// What is said of a drawing that is singular, a line of text; nothing of others.
@@ -398,7 +393,7 @@ pub(super) fn open(
 /// A session, unless the sketch is no figure.
 fn taken(opened: Result<Session, OpenError>, file: &Path) -> Result<Session, Refusal> {
     opened.map_err(|error| Refusal {
-        message: in_file(file, &error),
+        message: in_file(file)(&error),
         code: match error {
             OpenError::Correction { .. } => STOPPED,
             _ => BAD_INPUT,

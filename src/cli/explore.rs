@@ -1,6 +1,6 @@
 //! `krawl explore`: new sketches from solutions, and their paths, until nothing new comes.
 
-use super::output::{self, Beside, Destination, number};
+use super::output::{self, Beside, Destination, in_file, number};
 use super::pictures::Pictures;
 use super::results::Results;
 use super::verify::check_written;
@@ -275,7 +275,7 @@ fn share(explorer: &mut Explorer, count: usize) -> Result<usize, ExploreError> {
 
 /// Follows the paths that first found solutions once more, and writes their problems and certificates.
 fn prove(explorer: &Explorer, folder: &Path, quiet: bool) -> Result<bool, String> {
-    std::fs::create_dir_all(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
+    std::fs::create_dir_all(folder).map_err(in_file(folder))?;
     let classes = explorer.contents().classes.iter();
     let paths = each_once(classes.map(|class| class.path));
     let mut well = true;
@@ -290,7 +290,7 @@ fn prove(explorer: &Explorer, folder: &Path, quiet: bool) -> Result<bool, String
         let mut writer = beside.certificate(&problem);
         let mut control = interrupt::witnessed(Some(&mut writer));
         track::solve_in_best_space(&problem, &track::Options::certified(), &mut control)
-            .map_err(|error| format!("{}: {error}", text.display()))?;
+            .map_err(in_file(&text))?;
         if interrupt::is_requested() {
             return Ok(well);
         }

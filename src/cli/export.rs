@@ -2,7 +2,7 @@
 
 use super::CLOSED;
 use super::input;
-use super::output::{self, Destination};
+use super::output::{self, Destination, in_file};
 use krawl::complex::{Export, export, lower_in_squares, places};
 use std::io::Write;
 use std::path::PathBuf;
@@ -70,11 +70,11 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
             "{file}: a box that holds all solutions is known for distances only, and this program needs one"
         ));
     }
-    let lowered = lower_in_squares(&problem).map_err(|error| format!("{file}: {error}"))?;
+    let lowered = lower_in_squares(&problem).map_err(in_file(&arguments.file))?;
     // Points that bars join are no further apart than all bars together.
     let lengths = problem.distances.iter().map(|d| d.target.to_f64());
     let reach = (1.0 + lengths.sum::<f64>()).ceil();
-    let text = export(&lowered.system, to, reach).map_err(|error| format!("{file}: {error}"))?;
+    let text = export(&lowered.system, to, reach).map_err(in_file(&arguments.file))?;
     let names: Vec<String> = problem.points.iter().map(|p| p.name.clone()).collect();
     let places = places(&lowered.system, &names);
     let to = Destination::new(&arguments.out)?;

@@ -1,6 +1,6 @@
 //! Reading problems from files and from standard input.
 
-use super::output;
+use super::output::{self, in_file};
 use krawl::blocks::Account;
 use krawl::complete::{Surplus, has_equations_to_spare};
 use krawl::constraint::fix_frame;
@@ -50,7 +50,7 @@ impl Source {
 pub fn read(file: &Path, which: &Which) -> Result<Problem, String> {
     let loaded = load(file, which)?;
     if is_sketch(file) {
-        return completed(&loaded.problem).map_err(|e| format!("{}: {e}", file.display()));
+        return completed(&loaded.problem).map_err(in_file(file));
     }
     loaded.fault.map_or(Ok(loaded.problem), Err)
 }
@@ -96,9 +96,8 @@ pub fn provable(file: &Path, problem: &Problem) -> Result<(Problem, Account), St
     if !is_sketch(file) && (!problem.is_absolute() || problem.check().is_ok()) {
         return Ok((problem.clone(), Account::default()));
     }
-    let in_file = |error| format!("{}: {error}", file.display());
-    let found = Decomposition::of(problem).map_err(in_file)?;
-    Ok((completed(problem).map_err(in_file)?, found.account))
+    let found = Decomposition::of(problem).map_err(in_file(file))?;
+    Ok((completed(problem).map_err(in_file(file))?, found.account))
 }
 
 /// The problem of a file that was read as sets of all solutions are about it: of a problem file as it is, of a sketch of another program as

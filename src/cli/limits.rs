@@ -1,7 +1,7 @@
 //! `krawl limits`: how far each dimension can go alone.
 
 use super::edit::{LeftOut, drawn_in_words, open};
-use super::output::{self, Refusal};
+use super::output::{self, Refusal, in_file};
 use super::pictures::Pictures;
 use super::results::Results;
 use super::{CLOSED, STOPPED, input, interrupt};
@@ -49,14 +49,11 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
     let loaded = arguments.source.load()?;
     let problem = &loaded.problem;
     output::say_if_signs_are_not_looked_at(problem);
-    let in_file = |error: &dyn std::fmt::Display| format!("{}: {error}", file.display());
     let only = arguments.only.iter();
     let only = only.map(|name| Setting::find(problem, name));
     let only = only.collect::<Result<Vec<_>, _>>();
-    let mut only = only.map_err(|error| in_file(&error))?;
-    loaded
-        .check_numbers(&only)
-        .map_err(|error| in_file(&error))?;
+    let mut only = only.map_err(in_file(file))?;
+    loaded.check_numbers(&only).map_err(in_file(file))?;
     if only.is_empty() {
         let all = problem.dimensions();
         only = all.filter(|&index| loaded.has_number(index)).collect();

@@ -1,7 +1,7 @@
 //! `krawl motion`: how a figure moves that has one degree of freedom.
 
 use super::measured::Measured;
-use super::output::{self, Refusal};
+use super::output::{self, Refusal, in_file};
 use super::pictures::Pictures;
 use super::results::Results;
 use super::{CLOSED, OPEN, STOPPED, input, interrupt};
@@ -67,9 +67,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
     let free = arguments.free.iter();
     let free = free.filter_map(|name| Setting::find(problem, name).ok());
     let free: Vec<usize> = free.collect();
-    loaded
-        .check_numbers(&free)
-        .map_err(|error| format!("{}: {error}", file.display()))?;
+    loaded.check_numbers(&free).map_err(in_file(file))?;
     let mut control = interrupt::control();
     let motion = Motion::of(
         problem,

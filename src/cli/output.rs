@@ -16,6 +16,11 @@ pub fn say_if_signs_are_not_looked_at(problem: &Problem) {
     }
 }
 
+/// Says in front of an error which file it is about.
+pub fn in_file<E: std::fmt::Display>(file: &Path) -> impl Fn(E) -> String {
+    move |error| format!("{}: {error}", file.display())
+}
+
 /// Prints one message on standard error. If that is closed there is nobody to tell.
 pub fn complain(message: &str) {
     let _ = writeln!(io::stderr().lock(), "krawl: {message}");
@@ -35,7 +40,7 @@ impl Refusal {
                 message: "interrupted before anything was proved".to_owned(),
                 code: super::STOPPED,
             },
-            false => format!("{}: {error}", file.display()).into(),
+            false => in_file(file)(error).into(),
         }
     }
 }

@@ -55,6 +55,6 @@ pub fn man(arguments: &Man) -> Result<u8, String> {
     };
     std::fs::create_dir_all(folder)
         .and_then(|()| clap_mangen::generate_to(command, folder))
-        .map_err(|error| format!("{}: {error}", folder.display()))?;
+        .map_err(output::in_file(folder))?;
     Ok(CLOSED)
 }

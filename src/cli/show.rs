@@ -51,7 +51,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
             lines.len()
         ));
     }
-    let page = Page::from_json(&text).map_err(|error| format!("{}: {error}", file.display()))?;
+    let page = Page::from_json(&text).map_err(output::in_file(file))?;
     let written = match places.is_empty() {
         false => places.write(&page),
         true if file == Path::new("-") => {

@@ -2,7 +2,7 @@
 
 use super::edit::{LeftOut, certified, commit, drawn_in_words, exit_code, open, reason};
 use super::measured::Measured;
-use super::output::{self, Beside, Refusal};
+use super::output::{self, Beside, Refusal, in_file};
 use super::pictures::Pictures;
 use super::results::Results;
 use super::{input, interrupt, table};
@@ -107,16 +107,15 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
 
 /// Drives one dimension through a range.
 fn drive(arguments: &Arguments, vary: &str, ends: [&str; 2]) -> Result<u8, Refusal> {
-    let shown = arguments.source.file.display();
+    let file = &arguments.source.file;
     let loaded = arguments.source.load()?;
     let problem = &loaded.problem;
     output::say_if_signs_are_not_looked_at(problem);
-    let in_file = |error: &dyn std::fmt::Display| format!("{shown}: {error}");
     let named = ends.each(|value| (vary, value));
-    let asked = Asked::of_dimensions(problem, &named).map_err(|e| in_file(&e))?;
-    Setting::check(&asked.problem, &asked.settings[..1]).map_err(|e| in_file(&e))?;
+    let asked = Asked::of_dimensions(problem, &named).map_err(in_file(file))?;
+    Setting::check(&asked.problem, &asked.settings[..1]).map_err(in_file(file))?;
     let led = [asked.given[0].index];
-    loaded.check_numbers(&led).map_err(|e| in_file(&e))?;
+    loaded.check_numbers(&led).map_err(in_file(file))?;
     loaded.say_computed(&led);
     let measures = arguments.measured.of(problem)?;
     let as_turns = asked.in_words(problem);
@@ -127,7 +126,7 @@ fn drive(arguments: &Arguments, vary: &str, ends: [&str; 2]) -> Result<u8, Refus
     if cert.is_some() {
         let frames = arguments.frames as usize;
         let first = &asked.settings[..1];
-        match certified(&arguments.source.file, (&problem, first), |session| {
+        match certified(file, (&problem, first), |session| {
             let mut control = interrupt::control();
             let sweep = session.sweep(index, (&from, &to), frames, &mut control);
             let stop = reason(sweep.end.as_ref().unwrap_or(&sweep.approach));
@@ -146,7 +145,7 @@ fn drive(arguments: &Arguments, vary: &str, ends: [&str; 2]) -> Result<u8, Refus
     let mut witness = begun.as_ref().map(|beside| beside.certificate(&problem));
     let mut control = interrupt::witnessed(witness.as_mut());
     let options = arguments.left_out.options();
-    let mut session = open(&problem, &arguments.source.file, &options, &mut control)?;
+    let mut session = open(&problem, file, &options, &mut control)?;
     let mut sweep = session.sweep(index, (&from, &to), arguments.frames as usize, &mut control);
     if let Some(account) = account {
         sweep.account = account;
@@ -157,7 +156,7 @@ fn drive(arguments: &Arguments, vary: &str, ends: [&str; 2]) -> Result<u8, Refus
     let last = sweep.end.as_ref().unwrap_or(&sweep.approach);
     let (is_written, verdict) = commit(
         (begun.as_ref(), witness),
-        (&arguments.source.file, last),
+        (file, last),
         cert.filter(|_| !arguments.no_verify),
         arguments.quiet,
     )?;

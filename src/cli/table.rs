@@ -2,7 +2,7 @@
 
 use super::edit::{drawn_in_words, exit_code, open};
 use super::input::Loaded;
-use super::output::{self, Beside, Refusal};
+use super::output::{self, Beside, Refusal, in_file};
 use super::sweep::Arguments;
 use super::{CLOSED, interrupt};
 use krawl::edit::{Asked, Ending, Session, Setting};
@@ -22,34 +22,31 @@ struct Table {
 
 impl Table {
     fn read(file: &Path) -> Result<Self, String> {
-        let in_file = |what: String| format!("{}: {what}", file.display());
-        let wrong = |error: csv::Error| in_file(error.to_string());
         let reader = csv::ReaderBuilder::new()
             .trim(csv::Trim::All)
             .comment(Some(b'#'))
             .from_path(file);
-        let mut reader = reader.map_err(wrong)?;
+        let mut reader = reader.map_err(in_file(file))?;
         let cells = |record: &csv::StringRecord| record.iter().map(str::to_owned).collect();
-        let names: Vec<String> = reader.headers().map(cells).map_err(wrong)?;
+        let names: Vec<String> = reader.headers().map(cells).map_err(in_file(file))?;
         let mut seen = HashSet::new();
         if let Some(twice) = names.iter().find(|name| !seen.insert(name.as_str())) {
             let what = format!("there are two columns {twice}: leave out one of them");
-            return Err(in_file(what));
+            return Err(in_file(file)(what));
         }
         let rows = reader.records().map(|record| Ok(cells(&record?)));
-        let rows = rows.collect::<Result<Vec<Vec<String>>, _>>();
-        let rows = rows.map_err(wrong)?;
+        let rows = rows.collect::<Result<Vec<Vec<String>>, csv::Error>>();
+        let rows = rows.map_err(in_file(file))?;
         for (row, cells) in rows.iter().enumerate() {
             for (name, cell) in names.iter().zip(cells) {
                 if let Err(error) = cell.parse::<Decimal>() {
-                    return Err(in_file(format!("row {}, {name}: {error}", row + 1)));
+                    return Err(in_file(file)(format!("row {}, {name}: {error}", row + 1)));
                 }
             }
         }
         match rows.is_empty() {
-            true => Err(in_file(
-                "there is no row: the first line has the names of dimensions, each other one their values"
-                    .to_owned(),
+            true => Err(in_file(file)(
+                "there is no row: the first line has the names of dimensions, each other one their values",
             )),
             false => Ok(Table { names, rows }),
         }
@@ -65,20 +62,17 @@ pub(super) fn run(arguments: &Arguments, file: &Path) -> Result<u8, Refusal> {
         .iter()
         .flat_map(|row| table.names.iter().zip(row));
     let cells: Vec<(&str, &str)> = cells.map(|(name, cell)| (&**name, &**cell)).collect();
-    let asked = Asked::of_dimensions(&loaded.problem, &cells)
-        .map_err(|error| format!("{}: {error}", file.display()))?;
+    let asked = Asked::of_dimensions(&loaded.problem, &cells).map_err(in_file(file))?;
     let (columns, problem) = (table.names.len(), &asked.problem);
     let led = asked.given[..columns].iter().map(|setting| setting.index);
     let led: Vec<usize> = led.collect();
-    loaded
-        .check_numbers(&led)
-        .map_err(|error| format!("{}: {error}", file.display()))?;
+    loaded.check_numbers(&led).map_err(in_file(file))?;
     loaded.say_computed(&led);
     let measures = arguments.measured.of(problem)?;
     let mut results = arguments.results()?;
     let folder = arguments.out_folder.as_deref();
     if let Some(folder) = folder {
-        fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+        fs::create_dir_all(folder).map_err(in_file(folder))?;
     }
     let mut control = interrupt::control();
     let options = arguments.left_out.options();

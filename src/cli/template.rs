@@ -1,7 +1,7 @@
 //! `krawl template`: fills a generic instance of a problem's equations with its complex solutions.
 
 use super::input;
-use super::output::{self, Destination};
+use super::output::{self, Destination, in_file};
 use super::{CLOSED, INCOMPLETE, in_pool, interrupt};
 use krawl::complex::{Effort, Fibre, Filling, Lowered, Template, Ways, fill, lower, lower_for};
 use krawl::problem::{Problem, counted};
@@ -117,7 +117,7 @@ pub(super) fn read(
         Some(template) => lower_for(&problem, &template.text),
         None => lower(&problem),
     };
-    let lowered = lowered.map_err(|error| format!("{}: {error}", file.display()))?;
+    let lowered = lowered.map_err(in_file(file))?;
     Ok((problem, lowered))
 }
 
@@ -129,7 +129,7 @@ pub(super) struct TemplateText {
 
 impl TemplateText {
     pub(super) fn read(path: &Path) -> Result<Self, String> {
-        let text = std::fs::read_to_string(path).map_err(|e| format!("{}: {e}", path.display()))?;
+        let text = std::fs::read_to_string(path).map_err(in_file(path))?;
         Ok(TemplateText {
             path: path.to_owned(),
             text,
@@ -138,14 +138,12 @@ impl TemplateText {
 
     /// The template, for these equations, its solutions proved again.
     pub(super) fn prove(&self, lowered: &Lowered) -> Result<Template, String> {
-        let at = |error| format!("{}: {error}", self.path.display());
-        Template::read(&self.text, &lowered.system).map_err(at)
+        Template::read(&self.text, &lowered.system).map_err(in_file(&self.path))
     }
 }
 
 /// Runs the verb and returns the exit code.
 pub fn run(arguments: &Arguments) -> Result<u8, String> {
-    let file = arguments.file.display();
     let from = arguments.from.as_deref().map(TemplateText::read);
     let from = from.transpose()?;
     let (problem, lowered) = read(&arguments.file, from.as_ref())?;
@@ -156,7 +154,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
     let fibre = in_pool(arguments.search.threads, || {
         let from = from.as_ref().map(|text| text.prove(&lowered)).transpose()?;
         let fibre = arguments.search.fill(&lowered, from.as_ref(), &line);
-        fibre.map_err(|error| format!("{file}: {error}"))
+        fibre.map_err(in_file(&arguments.file))
     })?;
     line.clear();
     let fibre = fibre?;

@@ -254,7 +254,7 @@ fn conclude(
 fn verify_the_set(arguments: &Arguments, bytes: &[u8]) -> Result<Proved, String> {
     let clock = Instant::now();
     let verdict = super::in_pool(arguments.threads, || verify_complex_set(bytes))?;
-    let verdict = verdict.map_err(|error| format!("{}: {error}", arguments.cert.display()))?;
+    let verdict = verdict.map_err(output::in_file(&arguments.cert))?;
     let text = complex_set_theorem(&verdict, clock.elapsed());
     let code = match verdict.flaw {
         None => CLOSED,
@@ -273,7 +273,7 @@ fn verify_the_set(arguments: &Arguments, bytes: &[u8]) -> Result<Proved, String>
 fn verify_the_cover(arguments: &Arguments, bytes: &[u8]) -> Result<Proved, String> {
     let clock = Instant::now();
     let verdict = check_cover(bytes, arguments.threads, arguments.quiet, || true);
-    let verdict = verdict.map_err(|error| format!("{}: {error}", arguments.cert.display()))?;
+    let verdict = verdict.map_err(output::in_file(&arguments.cert))?;
     let text = cover_theorem(&verdict, clock.elapsed());
     let code = match verdict.proves_all() {
         _ if verdict.flaw.is_some() => NOT_PROVED,

@@ -1,6 +1,6 @@
 //! `krawl work`: follows the sketches of a work unit.
 
-use super::output;
+use super::output::{self, in_file};
 use super::{CLOSED, INCOMPLETE, interrupt};
 use krawl::explore::{Limits, Share, Worked, work};
 use krawl::report::ProgressLine;
@@ -42,8 +42,8 @@ pub struct Arguments {
 
 /// Reads a unit.
 fn read(path: &Path) -> Result<Share, String> {
-    let text = std::fs::read_to_string(path).map_err(|e| format!("{}: {e}", path.display()))?;
-    Share::read(&text).map_err(|error| format!("{}: {error}", path.display()))
+    let text = std::fs::read_to_string(path).map_err(in_file(path))?;
+    Share::read(&text).map_err(in_file(path))
 }
 
 /// Runs the verb and returns the exit code.
