@@ -6,10 +6,7 @@ use krawl::rational::Rational;
 use krawl::track::Solution;
 use nalgebra::{DMatrix, DVector};
 
-/// A float's exact value.
-pub fn exact(x: f64) -> Rational {
-    Rational::from_float(x).expect("a finite float")
-}
+pub use krawl::rational::exact;
 
 /// The rational number with few digits as a decimal.
 pub fn decimal(value: &Rational) -> Decimal {

@@ -262,6 +262,15 @@ impl Rational {
     }
 }
 
+/// The number that a finite float is.
+///
+/// # Panics
+/// If it is infinite or no number.
+#[doc(hidden)]
+pub fn exact(x: f64) -> Rational {
+    Rational::from_float(x).expect("a finite float")
+}
+
 impl Ord for Rational {
     fn cmp(&self, other: &Self) -> Ordering {
         let by_sign = self.above.sign().cmp(&other.above.sign());

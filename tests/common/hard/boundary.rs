@@ -5,7 +5,7 @@ use super::families::{cut, decimal, joined, ratio, ten_to, text};
 use super::polynomial::root;
 use super::{Family, trees};
 use krawl::problem::{Decimal, Problem, ProblemBuilder};
-use krawl::rational::Rational;
+use krawl::rational::{Rational, exact};
 use krawl::track::Options;
 
 /// Digits behind the point of lengths that are no decimals.
@@ -13,10 +13,6 @@ const DIGITS: i32 = 40;
 
 fn square(x: &Rational) -> Rational {
     x * x
-}
-
-fn exact(x: f64) -> Rational {
-    Rational::from_float(x).expect("a number")
 }
 
 /// A tetrahedron over an edge a b that bends so that around t = 0.5 it is nearly as long as the two

@@ -5,7 +5,7 @@
 //! Softw. 44 (2017), and no more, so that the bounds proved there can be read beside them.
 
 use super::rounding::{UNDERFLOW, UNIT_ROUNDOFF};
-use crate::rational::Rational;
+use crate::rational::{Rational, exact};
 use std::ops::{Add, Mul, Neg, Sub};
 
 /// The unevaluated sum of two floats, `hi` being the float nearest to it.
@@ -51,7 +51,6 @@ impl DoubleDouble {
 
     /// The number nearest to a ratio, or next to it, and a bound on what is left.
     pub fn near(value: &Rational) -> (Self, f64) {
-        let exact = |x: f64| Rational::from_float(x).expect("a finite float");
         let hi = value.to_f64();
         let out = two_sum(hi, (value - exact(hi)).to_f64());
         (

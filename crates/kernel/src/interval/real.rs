@@ -490,10 +490,7 @@ fn pi() -> Ball {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    fn exact(x: f64) -> Rational {
-        Rational::from_float(x).unwrap()
-    }
+    use crate::rational::exact;
 
     /// What vanishes in the end vanishes exactly.
     #[test]

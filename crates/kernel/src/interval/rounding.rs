@@ -53,13 +53,12 @@ pub fn in_range(x: f64) -> bool {
 mod tests {
     use super::*;
     use crate::interval::enclose_rational;
-    use crate::rational::Rational;
+    use crate::rational::{Rational, exact};
     use proptest::prelude::*;
 
     proptest! {
         #[test]
         fn sums_stay_within_gamma(terms in prop::collection::vec((-1e3f64..1e3, -1e3f64..1e3), 1..40)) {
-            let exact = |x: f64| Rational::from_float(x).unwrap();
             let (mut sum, mut size) = (0.0f64, 0.0f64);
             let (mut exact_sum, mut exact_size) = (Rational::zero(), Rational::zero());
             for &(x, y) in &terms {

@@ -498,15 +498,11 @@ pub fn rotation<const S: usize, const M: usize>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::rational::Rational;
+    use crate::rational::{Rational, exact};
     use num_traits::Zero;
     use proptest::prelude::*;
 
     type Two = Model<2, 6>;
-
-    fn exact(x: f64) -> Rational {
-        Rational::from_float(x).unwrap()
-    }
 
     /// The polynomial at a point, exactly.
     fn polynomial<const S: usize, const M: usize>(f: &Model<S, M>, u: &[f64]) -> Rational {

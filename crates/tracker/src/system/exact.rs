@@ -70,11 +70,8 @@ impl ExactLength {
 mod tests {
     use super::*;
     use crate::interval::{enclose, enclose_rational, point};
+    use crate::rational::exact;
     use crate::system::Length;
-
-    fn exact(x: f64) -> Rational {
-        Rational::from_float(x).unwrap()
-    }
 
     #[test]
     fn agrees_with_the_intervals_and_is_much_tighter() {

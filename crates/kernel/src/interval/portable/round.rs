@@ -124,12 +124,8 @@ pub fn div_down(a: f64, b: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::rational::Rational;
+    use crate::rational::{Rational, exact};
     use proptest::prelude::*;
-
-    fn exact(x: f64) -> Rational {
-        Rational::from_float(x).expect("a finite float")
-    }
 
     /// `down` and `up` enclose the number, with nothing but the number between them: its neighbours, or
     /// itself twice.

@@ -145,12 +145,8 @@ mod tests {
     use crate::interval::rounding::gamma;
     use crate::problem::Problem;
     use crate::random::Random;
-    use crate::rational::Rational;
+    use crate::rational::{Rational, exact};
     use crate::system::Homotopy;
-
-    fn exact(x: f64) -> Rational {
-        Rational::from_float(x).unwrap()
-    }
 
     fn holds(x: Interval, value: &Rational, room: f64) -> bool {
         exact(x.inf()) <= value + exact(room) && value - exact(room) <= exact(x.sup())

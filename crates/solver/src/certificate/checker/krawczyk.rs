@@ -466,13 +466,9 @@ mod tests {
     use super::super::guess::Inverse;
     use super::*;
     use crate::problem::Problem;
-    use crate::rational::Rational;
+    use crate::rational::{Rational, exact as ratio};
     use crate::system::Homotopy;
     use proptest::prelude::*;
-
-    fn ratio(x: f64) -> Rational {
-        Rational::from_float(x).unwrap()
-    }
 
     /// A triangle with E_e(t) that floats are: with a bend, of degree 4.
     fn triangle(c: &str) -> Equations {

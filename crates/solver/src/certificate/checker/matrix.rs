@@ -164,11 +164,8 @@ impl Matrix {
 pub mod tests {
     use super::*;
     use crate::rational::Rational;
+    pub use crate::rational::exact as ratio;
     use proptest::prelude::*;
-
-    pub fn ratio(x: f64) -> Rational {
-        Rational::from_float(x).unwrap()
-    }
 
     /// Floats of any size up to 1e60, subnormal ones and zero.
     fn any_float() -> impl Strategy<Value = f64> {

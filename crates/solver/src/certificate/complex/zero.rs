@@ -394,10 +394,7 @@ impl Zero {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    fn ratio(x: f64) -> Rational {
-        Rational::from_float(x).unwrap()
-    }
+    use crate::rational::exact as ratio;
 
     /// x² = square.
     fn root(square: Rational) -> Quadratic {

@@ -291,13 +291,9 @@ impl Model {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::rational::Rational;
+    use crate::rational::{Rational, exact as ratio};
     use num_traits::Signed;
     use proptest::prelude::*;
-
-    fn ratio(x: f64) -> Rational {
-        Rational::from_float(x).unwrap()
-    }
 
     const SYMBOLS: usize = 3;
     /// Where functions are evaluated.

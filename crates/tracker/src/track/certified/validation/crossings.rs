@@ -1,14 +1,10 @@
 //! Crossings of t = 1 on polynomials made to mislead, against Sturm's theorem in rationals.
 
 use super::*;
-use crate::rational::Rational;
+use crate::rational::{Rational, exact};
 use crate::track::events::{Crossing, TimeAlong};
 
 type Polynomial = Vec<Rational>;
-
-fn exact(x: f64) -> Rational {
-    Rational::from_float(x).expect("a finite float")
-}
 
 fn value(p: &[Rational], x: &Rational) -> Rational {
     p.iter().rev().fold(Rational::zero(), |sum, c| sum * x + c)
