@@ -176,6 +176,7 @@ fn sum_abs(a: &Matrix, u: &[f64], y: &mut Vector) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::linalg::matrix::tests::filled as dense;
 
     /// A matrix with few entries, and its values.
     fn sparse(n: usize, seed: f64) -> (Sparse, Vec<f64>) {
@@ -190,16 +191,6 @@ mod tests {
         let values = (0..pattern.entries()).map(|k| (k as f64 * 1.3 + seed).sin() + 0.1);
         let values = values.collect();
         (pattern, values)
-    }
-
-    fn dense(n: usize, seed: f64) -> Matrix {
-        let mut a = Matrix::zeros(n, n);
-        for j in 0..n {
-            for i in 0..n {
-                a.set(i, j, ((i * 31 + j * 17) as f64 * 0.37 + seed).sin());
-            }
-        }
-        a
     }
 
     /// Against the kernels of small matrices, within the bounds that proofs use; and the same to the last bit

@@ -411,11 +411,11 @@ fn square_minus<const L: usize>(
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use nalgebra::{DMatrix, DVector};
 
-    fn filled(n: usize, seed: f64) -> Matrix {
+    pub fn filled(n: usize, seed: f64) -> Matrix {
         let mut a = Matrix::zeros(n, n);
         for j in 0..n {
             for i in 0..n {

@@ -1,7 +1,6 @@
 //! Pairs of triangles that the path must flatten together.
 
 use super::{Remark, triangles};
-use crate::places::Each as _;
 use crate::problem::Problem;
 use crate::rational::Rational;
 use std::collections::HashMap;
@@ -9,11 +8,8 @@ use std::collections::HashMap;
 /// The squares of a length in the sketch and in the target, and whether it bends.
 fn lengths(problem: &Problem, index: usize) -> (Rational, Rational, bool) {
     let distance = &problem.distances[index];
-    let [a, b] = distance.points.each(|p| &problem.points[p].sketch);
-    let terms = (0..3).map(|k| (a[k].value() - b[k].value()).pow(2));
-    let sketch = terms.fold(Rational::from_integer(0.into()), |sum, x| sum + x);
     (
-        sketch,
+        problem.squared_in_sketch(distance.points),
         distance.target.squared(),
         index == problem.homotopy.bend,
     )

@@ -231,6 +231,13 @@ impl Problem {
         format!("{}:{}", constraint.kind, items.join("-"))
     }
 
+    /// The square of how far apart two points are in the sketch.
+    pub fn squared_in_sketch(&self, points: [usize; 2]) -> Rational {
+        let [a, b] = points.each(|p| &self.points[p].sketch);
+        let squares = (0..3).map(|k| (a[k].value() - b[k].value()).pow(2));
+        squares.sum()
+    }
+
     /// Whether two points are joined by a distance.
     pub fn are_joined(&self, a: usize, b: usize) -> bool {
         self.distances

@@ -5,7 +5,6 @@ use crate::constraint::{self, Record, Tail};
 use crate::interval::{Interval, point};
 use crate::places::Each as _;
 use crate::problem::{Problem, Target};
-use crate::rational::Rational;
 
 impl Homotopy {
     /// Makes distance `index` stay at `target` for all t.
@@ -84,10 +83,5 @@ impl Homotopy {
 /// Whether the sketch of a problem meets one of its distances, exactly.
 pub fn is_met(problem: &Problem, index: usize) -> bool {
     let distance = &problem.distances[index];
-    let [a, b] = distance.points.each(|p| &problem.points[p].sketch);
-    let sum = (0..3).fold(Rational::from_integer(0.into()), |sum, k| {
-        let d = a[k].value() - b[k].value();
-        sum + &d * &d
-    });
-    sum == distance.target.squared()
+    problem.squared_in_sketch(distance.points) == distance.target.squared()
 }

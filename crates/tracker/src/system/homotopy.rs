@@ -5,7 +5,7 @@ use crate::constraint::{self, Entry, Equation, Role, Tail};
 use crate::equations::{Form, Product, Ring, left_side, slopes};
 use crate::interval::vector::distance;
 use crate::interval::{Interval, ZERO, enclose, enclose_rational, point};
-use crate::places::{Each as _, array};
+use crate::places::array;
 use crate::problem::{Decimal, Distance, Problem, Shape};
 
 /// Two points at a given distance, as places: `point * dimension` of either.
@@ -288,14 +288,7 @@ impl Homotopy {
     fn add_distances(&mut self, problem: &Problem, distances: &[Distance]) {
         let per_unit = point(1.0 / self.unit);
         for (index, distance) in distances.iter().enumerate() {
-            let [a, b] = distance.points.each(|p| &problem.points[p].sketch);
-            let squared = (0..3).fold(
-                crate::rational::Rational::from_integer(0.into()),
-                |sum, k| {
-                    let d = a[k].value() - b[k].value();
-                    sum + &d * &d
-                },
-            );
+            let squared = problem.squared_in_sketch(distance.points);
             let sketch = enclose_rational(&squared).sqrt();
             let target = distance.target.enclose();
             let bend = (index == problem.homotopy.bend)

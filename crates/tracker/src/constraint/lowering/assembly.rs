@@ -153,7 +153,7 @@ impl Lowering<'_> {
                 .for_each(|&(_, axis, _)| is_told[axis] = true);
         }
         for group in 0..made.plan.groups.len() {
-            let frame = self.frame_of_group(&made, group, &mut is_told)?;
+            let frame = self.frame_of_group(&made, group, &mut is_told);
             made.groups.push(frame);
         }
         for member in 0..made.plan.members.len() {
@@ -165,7 +165,7 @@ impl Lowering<'_> {
             self.join(&mut made, joint)?;
         }
         for member in 0..made.plan.members.len() {
-            self.place_points(&made, member)?;
+            self.place_points(&made, member);
         }
         self.tell_poses(&made);
         Ok(made)
@@ -230,16 +230,11 @@ impl Lowering<'_> {
     }
 
     /// How a group is turned, with the unknowns and equations that tell it.
-    fn frame_of_group(
-        &mut self,
-        made: &Assembled,
-        group: usize,
-        is_told: &mut [bool],
-    ) -> Result<Frame, Fault> {
+    fn frame_of_group(&mut self, made: &Assembled, group: usize, is_told: &mut [bool]) -> Frame {
         let plan = &made.plan;
         let of = &plan.groups[group];
         if let Some(stands) = &of.stands {
-            return Ok(Frame::Stands(stands.clone()));
+            return Frame::Stands(stands.clone());
         }
         self.begin(of.body);
         let name = self.problem.objects[of.body].name.clone();
@@ -247,7 +242,7 @@ impl Lowering<'_> {
         if self.dimension() == 2 {
             let along = self.moving(&format!("the x axis of {name}"), drawn[0].clone());
             self.has_length_one(&along);
-            return Ok(Frame::Plane(along));
+            return Frame::Plane(along);
         }
         let own = |low: &mut Self, direction: &Exact, which: &str| {
             let at = out_of(&drawn, direction);
@@ -306,7 +301,7 @@ impl Lowering<'_> {
             self.vanish_all(&name, told.minus(by), 0);
             is_told[*axis] = true;
         }
-        Ok(frame)
+        frame
     }
 
     /// What is told in two ways that are not known to agree.
@@ -551,7 +546,7 @@ impl Lowering<'_> {
     }
 
     /// Points of a body are where its frame has them.
-    fn place_points(&mut self, made: &Assembled, member: usize) -> Result<(), Fault> {
+    fn place_points(&mut self, made: &Assembled, member: usize) {
         let body = made.plan.members[member].body;
         let Shape::Body { points, local, .. } = &self.problem.objects[body].shape else {
             unreachable!("a body")
@@ -564,7 +559,6 @@ impl Lowering<'_> {
             let by = self.place_of(made, body, &exact(local));
             self.vanish_all(&name, there.minus(by), 1);
         }
-        Ok(())
     }
 
     /// Tells results where bodies are.

@@ -2,9 +2,7 @@
 
 use super::big::{Big, Rows, dot, exact, solve};
 use crate::equations::{Form, Halved as _, left_side, slopes};
-use crate::places::Each as _;
 use crate::problem::{Problem, Target};
-use crate::rational::Rational;
 use crate::system::{Homotopy, Term};
 use nalgebra::{DMatrix, DVector};
 
@@ -47,11 +45,7 @@ impl Figure {
     ) -> Self {
         let unit = Big::of(homotopy.unit);
         let lengths = problem.distances.iter().enumerate().map(|(e, distance)| {
-            let [a, b] = distance.points.each(|p| &problem.points[p].sketch);
-            let squared = (0..3).fold(Rational::from_integer(0.into()), |sum, k| {
-                let d = a[k].value() - b[k].value();
-                sum + &d * &d
-            });
+            let squared = problem.squared_in_sketch(distance.points);
             let a0 = Big::ratio(&squared).sqrt() / &unit;
             let target = match &distance.target {
                 Target::Length(length) => Big::ratio(length.value()),
