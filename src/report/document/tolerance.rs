@@ -74,8 +74,8 @@ keys! {
         least: Bounds = bounds(&measured.bounds[0]),
         /// The greatest that it can be.
         greatest: Bounds = bounds(&measured.bounds[1]),
-        /// Whether the figures at the corners come near to these.
-        attained: [bool; 2] = measured.is_attained,
+        /// For each of both the values of the dimensions, in the order of the limits, of a figure that comes so near to it as its bounds say; none: the nominal figure.
+        corners: [Vec<String>; 2] = measured.corners.each_ref().map(|corner| all(corner, ToString::to_string)),
         /// The root of the sum of the squares of half the effects; null where there is no first order.
         root_of_squares: Option<f64> = measured.root_of_squares,
         /// What each dimension does alone, to first order; empty where there is none.

@@ -64,13 +64,12 @@ pub(super) fn page(reader: &Reader, study: &Tolerance) -> Result<Page, ShowError
     let mut due = Vec::new();
     for measured in &study.measured {
         let name = &measured.name;
+        let [low, high] = Bound::of_range(measured.least[0], measured.greatest[1]);
         page.rows.push((
             name.to_owned(),
             format!(
-                "{}; at worst from {} to {}; {}",
+                "{}; at worst from {low} to {high}; {}",
                 digits(measured.nominal),
-                Bound::Lower.short(measured.least[0]),
-                Bound::Upper.short(measured.greatest[1]),
                 squares_in_words(measured.root_of_squares)
             ),
         ));

@@ -152,10 +152,31 @@ impl Bound {
 
     /// The nearest one with six digits, or, of numbers from a million on, none behind the point.
     pub fn short(self, x: f64) -> String {
-        let size = x.abs().log10().floor();
-        let decimals = if size.is_finite() { 5.0 - size } else { 6.0 };
-        self.decimals(x, decimals.clamp(0.0, 15.0) as usize)
+        self.decimals(x, decimals(x, 5.0))
     }
+
+    /// Both ends of a range, with six digits, or more where the range is narrow: no end is further out by more than a thousandth of it, down to
+    /// 15 decimals.
+    pub fn of_range(low: f64, high: f64) -> [String; 2] {
+        let each = [decimals(low, 5.0), decimals(high, 5.0)];
+        let narrow = if high > low {
+            decimals(high - low, 3.0)
+        } else {
+            0
+        };
+        let most = each[0].max(each[1]).max(narrow);
+        [
+            Bound::Lower.decimals(low, most),
+            Bound::Upper.decimals(high, most),
+        ]
+    }
+}
+
+/// So many decimals that there are as many digits behind the first one.
+fn decimals(x: f64, behind: f64) -> usize {
+    let size = x.abs().log10().floor();
+    let decimals = if size.is_finite() { behind - size } else { 6.0 };
+    decimals.clamp(0.0, 15.0) as usize
 }
 
 /// Whether a number is readable without a power of ten.

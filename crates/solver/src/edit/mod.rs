@@ -40,6 +40,7 @@ mod alone;
 mod drag;
 mod ending;
 mod flat;
+mod limited;
 mod limits;
 mod open;
 mod parts;
@@ -52,13 +53,15 @@ mod sweep;
 mod way;
 mod whole;
 mod whole_turn;
-mod within;
+
 mod write;
 
 pub use alone::{Alone, alone};
 pub use drag::{Drag, Dragged};
 use ending::Keep;
 pub use ending::{Astray, Dimension, Edited, Ending, Limit, Lost, Orientations};
+pub use limited::Limits;
+pub(crate) use limited::{Limited, Part, Value};
 pub use limits::{End, Range};
 pub use open::{Moved, OpenError};
 pub(crate) use round::Round;
@@ -67,8 +70,6 @@ pub use session::{Decomposition, Session, Standing, TooMany, completed};
 pub use setting::{Setting, SettingError};
 pub use sweep::{Frame, Sweep};
 pub use whole_turn::{Asked, with_turns_of};
-pub use within::Limits;
-pub(crate) use within::{Limited, Within};
 pub use write::{WriteError, rewrite};
 
 use crate::blocks::in_words;

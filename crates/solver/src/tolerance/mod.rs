@@ -1,9 +1,9 @@
 //! Tolerances: every dimension is anywhere within its limits, and this is what that does to a figure.
 //!
-//! For all choices of all dimensions together there is exactly one figure that the given one becomes, by one test of Krawczyk with the
-//! dimensions as intervals; and what is measured of it stays between bounds. These are linear in the dimensions but for a part of second
-//! order, which is bounded too. Each bound is set beside what the figure has at the corner of the limits that leads there, so that one sees
-//! how sharp it is.
+//! For all choices of all dimensions together there is exactly one figure that the given one becomes, by tests of Krawczyk with the
+//! dimensions as intervals, of parts of the limits where one test is too few; and what is measured of it stays between bounds. Where it is
+//! certain which way something goes with each dimension, its bounds are what it is at corners of the limits; elsewhere the limits are cut until it is
+//! known well, and each bound is set beside what a figure has, so that one sees how sharp it is.
 //!
 //! ```
 //! use krawl::edit::Limits;
@@ -29,20 +29,26 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod extreme;
+mod family;
+mod parts;
 mod set;
 
 pub use set::{OfSet, Set, study_all};
 
 use crate::blocks::Account;
-use crate::edit::{Limited, Limits, Setting, Within};
+use crate::edit::{Ending, Limited, Limits, Part, Setting, Value};
 use crate::interval::along::Along;
-use crate::interval::{Interval, enclose_rational, hull, point};
+use crate::interval::{Interval, certain_digits, enclose_rational, hull, point};
 use crate::motion::{in_place, lengths};
 use crate::order::InOrder;
 use crate::places::array;
 use crate::problem::{Decimal, Problem, Target};
-use crate::system::{Quantity, WHOLE_TURN};
+use crate::system::{Homotopy, Quantity, WHOLE_TURN};
 use crate::track::{Control, Options};
+use extreme::{Extreme, Measure};
+use parts::{Failure, Proved};
+use std::rc::Rc;
 
 /// What tolerances do to a figure.
 #[derive(Debug)]
@@ -68,11 +74,11 @@ pub struct Measured {
     pub unit: &'static str,
     /// With the dimensions as they are given.
     pub nominal: Interval,
-    /// Enclosures of the least and the greatest value: no choice of the dimensions goes beyond the outer end of each, and a figure at a
-    /// corner of the limits, or the nominal one, reaches the inner end.
+    /// Enclosures of the least and the greatest value: no choice of the dimensions goes beyond the outer end of each, and a figure within the
+    /// limits reaches the inner end.
     pub bounds: [Interval; 2],
-    /// Whether the path to that corner was proved. Otherwise the inner end is the nominal value's.
-    pub is_attained: [bool; 2],
+    /// For each of both the values of the dimensions, in the order of the limits, with which a figure does; empty: the figure as it is given.
+    pub corners: [Vec<Decimal>; 2],
     /// Whether it is a dimension that has no limits.
     pub is_given: bool,
     /// The root of the sum of the squares of half of each dimension's effect: a tolerance if the dimensions are independent and lie in their
@@ -106,6 +112,9 @@ impl Measured {
 /// So many lengths that no distance gives are measured where nothing is asked for.
 const DEFAULT: usize = 12;
 
+/// So many products of numbers, about, are made to bound all that is measured from below, and so many from above, at most: half a second.
+const WORK: usize = 200_000_000;
+
 /// What dimensions within limits do to the figure of a problem's sketch; `asked` is what to measure, as `A-B` and `angle A B C`; if
 /// nothing, the longest lengths that no distance gives.
 ///
@@ -122,24 +131,78 @@ pub fn study(
     let quantities = checked(problem, limits, asked)?;
     let open = |limits: &[Limits], control: &mut Control| {
         let limited = Limited::open(problem, limits, options, control);
-        limited
-            .map(Limited::prove)
-            .map_err(|error| error.to_string())
+        limited.map_err(|error| error.to_string())
     };
-    let Some(within) = open(limits, control)? else {
-        let part = (1..=10).find_map(|k| {
-            let part = scaled(problem, limits, k)?;
-            matches!(open(&part, control), Ok(Some(_))).then_some(1u32 << k)
-        });
-        let with = match part {
-            Some(part) => format!("with limits {part} times as narrow it is proved"),
-            None => "nor is it with limits a thousand times as narrow: the figure is at a limit of its dimensions, or near one".to_owned(),
+    match Proved::new(open(limits, control)?, control) {
+        Ok(proved) => studied(problem, limits, proved, &quantities, control),
+        Err((_, Failure::Interrupted)) => Err("the run was ended before".to_owned()),
+        Err((mut limited, Failure::Part(part))) => {
+            if let Some(end) = end(problem, limits, (&mut limited, &part), control) {
+                return Err(format!(
+                    "there is not one figure for every choice of the dimensions: {end}"
+                ));
+            }
+            let part = (1..=10).find_map(|k| {
+                let part = scaled(problem, limits, k)?;
+                let is_proved = Proved::by_one_test(&open(&part, control).ok()?);
+                is_proved.then_some(1u32 << k)
+            });
+            let with = match part {
+                Some(part) => format!("with limits {part} times as narrow it is proved"),
+                None => "nor is it with limits a thousand times as narrow: the figure is at a limit of its dimensions, or near one".to_owned(),
+            };
+            Err(format!(
+                "it is not proved that there is one figure for every choice of the dimensions: it may flip or come apart within the limits; {with}"
+            ))
+        }
+    }
+}
+
+/// Where the figure comes to an end within its limits, in words, if a path does that leads the dimensions together, in proportion, to one side of
+/// their limits: those that were cut where one figure was not proved to where that is, or all of them down or up.
+fn end(
+    problem: &Problem,
+    limits: &[Limits],
+    (limited, part): (&mut Limited, &Part),
+    control: &mut Control,
+) -> Option<String> {
+    let all = limited.all.clone();
+    let number = |value: &Rc<Value>| value.decimal.to_f64();
+    let cut = limits.iter().zip(part).zip(&all).enumerate();
+    let cut = cut.filter_map(|(k, ((one, part), all))| {
+        let [low, high] = part.each_ref().map(number);
+        let is_cut = low > number(&all[0]) || high < number(&all[1]);
+        let given = given(problem, one.index)?.to_f64();
+        let end = usize::from(0.5 * (low + high) > given);
+        is_cut.then(|| (k, all[end].clone()))
+    });
+    let to_end = |end: usize| {
+        let each = all.iter().enumerate();
+        each.map(|(k, ends)| (k, ends[end].clone())).collect()
+    };
+    let ways: [Vec<(usize, Rc<Value>)>; 3] = [cut.collect(), to_end(0), to_end(1)];
+    let mut ways = ways.iter().filter(|way| !way.is_empty());
+    ways.find_map(|way| {
+        let edited = limited.lead(way, control);
+        matches!(edited.ending, Ending::Limit(_)).then_some(())?;
+        let told = |at: &dyn Fn(usize) -> String| {
+            let each = way.iter().enumerate().map(|(at_way, (k, _))| {
+                let name = problem.dimension_name(limits[*k].index);
+                format!("{name} = {}", at(at_way))
+            });
+            each.collect::<Vec<_>>().join(", ")
         };
-        return Err(format!(
-            "it is not proved that there is one figure for every choice of the dimensions: it may flip or come apart within the limits; {with}"
-        ));
-    };
-    studied(problem, limits, within, &quantities, control)
+        let to = told(&|k| way[k].1.decimal.to_string());
+        let at = told(&|k| certain_digits(edited.dimensions[k].value));
+        let together = if way.len() > 1 {
+            " together, in proportion,"
+        } else {
+            ""
+        };
+        Some(format!(
+            "led{together} towards {to}, it turns back at {at}, proved"
+        ))
+    })
 }
 
 /// What is to be measured, by default the longest lengths that no distance gives; and whether limits make sense.
@@ -177,14 +240,15 @@ fn checked(
 fn studied(
     problem: &Problem,
     limits: &[Limits],
-    mut within: Within,
+    mut proved: Proved,
     quantities: &[Quantity],
-    control: &mut Control,
+    control: &Control,
 ) -> Result<Study, String> {
-    let figure = within.figure();
+    let figure = proved.limited.figure();
     let dimensions = problem.dimensions();
     let dimensions = dimensions.filter_map(|index| Some((index, in_place(problem, index)?)));
     let dimensions: Vec<(usize, Quantity)> = dimensions.collect();
+    let work = WORK / quantities.len().max(1);
     let measured = quantities
         .iter()
         .map(|quantity| {
@@ -194,14 +258,14 @@ fn studied(
             let own = itself.and_then(|&(index, _)| {
                 own_limits(problem, limits, index, (quantity, nominal.mid()))
             });
-            measure(&mut within, (quantity, nominal), own, control)
+            measure(&mut proved, (quantity, nominal, work), own, control)
         })
         .collect::<Result<_, _>>()?;
     Ok(Study {
         limits: limits.to_vec(),
-        account: within.account(),
+        account: proved.limited.account(),
         figure,
-        bands: within.boxes(),
+        bands: proved.bands(),
         measured,
     })
 }
@@ -342,50 +406,78 @@ fn own_limits(
 }
 
 fn measure(
-    within: &mut Within,
-    (quantity, nominal): (&Quantity, Interval),
+    proved: &mut Proved,
+    (quantity, nominal, work): (&Quantity, Interval, usize),
     own: Option<[Interval; 2]>,
-    control: &mut Control,
+    control: &Control,
 ) -> Result<Measured, String> {
-    let middle = quantity.key(|p| within.middle(p), 0.0);
-    let over_all = slopes(within, quantity, |p| within.near(p), middle.mid());
-    let all = middle + within.change(&over_all);
-    let about = slopes(within, quantity, |p| within.middle(p), middle.mid());
-    let effects = within.effects(&about);
-    if quantity.is_in_degrees() && (all.wid().is_nan() || all.wid() > WHOLE_TURN) {
+    let homotopy = proved.limited.homotopy();
+    let place = |p: usize| homotopy.place(p, |i| point(proved.nominal.centre[i] * homotopy.unit));
+    let middle = quantity.key(place, 0.0);
+    let near = middle.mid();
+    let about = slopes(
+        homotopy,
+        quantity,
+        |i| point(proved.nominal.centre[i]),
+        near,
+    );
+    let effects = proved.effects(&about);
+    let what = Measure {
+        quantity,
+        near,
+        work,
+    };
+    let all = proved.pieces.iter();
+    let all = all.map(|piece| what.over(&proved.limited, &piece.family));
+    let all = all.fold(middle, |all, key| all.convex_hull(key));
+    // Of turns the nearest to the figure's was taken.
+    let is_far = |end: f64| (end - near).abs() >= 0.5 * WHOLE_TURN;
+    if quantity.is_in_degrees() && (all.wid().is_nan() || is_far(all.inf()) || is_far(all.sup())) {
         return Err(format!(
             "--measure \"{}\": within the limits its points may come together, where an angle has no meaning",
             quantity.name
         ));
     }
-    let outer = [all.inf(), all.sup()].map(|key| quantity.of_key(point(key)));
-    let mut outer = [outer[0].inf(), outer[1].sup()];
+    let is_nominal_within = proved.limited.is_given_in(&proved.limited.within);
+    let mut extreme = |greatest: bool| {
+        let found = proved.extreme(&what, greatest, all.wid(), control);
+        let nominal = if greatest { middle.inf() } else { middle.sup() };
+        let is_beyond = if greatest {
+            nominal > found.inner
+        } else {
+            nominal < found.inner
+        };
+        if is_nominal_within && is_beyond {
+            return Ok(Extreme {
+                inner: nominal,
+                corner: Vec::new(),
+                ..found
+            });
+        }
+        let nothing = || {
+            format!(
+                "--measure \"{}\": no figure within the limits was found whose bounds are known",
+                quantity.name
+            )
+        };
+        found.inner.is_finite().then_some(found).ok_or_else(nothing)
+    };
+    let (least, greatest) = (extreme(false)?, extreme(true)?);
+    let [low, high] = [&least, &greatest].map(|one| {
+        let of = |key: f64| quantity.of_key(point(key));
+        (of(one.outer), of(one.inner))
+    });
+    let mut outer = [low.0.inf(), high.0.sup()];
+    let inner = [low.1.sup(), high.1.inf()];
     if let Some([low, high]) = own {
         outer = [outer[0].max(low.inf()), outer[1].min(high.sup())];
     }
-    let (mut bounds, mut is_attained) = ([nominal; 2], [false; 2]);
-    for side in [0, 1] {
-        // The least value is reached where what makes it grow is at its least.
-        let grows = side == 1;
-        let corner = within.corner(|k| (effects[k] > 0.0) == grows, control);
-        is_attained[side] = corner.is_some();
-        let inner = corner.map_or(nominal, |figure| {
-            // Of angles that differ by whole turns the one between the bounds.
-            quantity.of_key(quantity.key(|p| figure[p], all.mid()))
-        });
-        bounds[side] = match side {
-            0 => {
-                let inner = inner.sup().min(nominal.sup());
-                hull(outer[0].min(inner), inner)
-            }
-            _ => {
-                let inner = inner.inf().max(nominal.inf());
-                hull(inner, outer[1].max(inner))
-            }
-        };
-    }
+    let bounds = [
+        hull(outer[0].min(inner[0]), inner[0]),
+        hull(inner[1], outer[1].max(inner[1])),
+    ];
     // What a key grows by is no more than a slope of the quantity itself.
-    let scale = slope_of_key(quantity, middle.mid());
+    let scale = slope_of_key(quantity, near);
     let mut effects: Vec<f64> = effects.iter().map(|effect| effect * scale).collect();
     let is_given = own.is_some_and(|[low, high]| low == high);
     if is_given {
@@ -409,7 +501,7 @@ fn measure(
         unit: quantity.unit(),
         nominal,
         bounds,
-        is_attained,
+        corners: [least.corner, greatest.corner],
         is_given,
         root_of_squares: has_first_order.then_some(squares.sqrt()),
         effects,
@@ -419,15 +511,15 @@ fn measure(
 /// The slope of something smooth is known to this part of the steepest, of one figure.
 const SMOOTH: f64 = 1e-6;
 
-/// The derivatives of a quantity's key by the unknowns, over all figures with points there.
+/// The derivatives of a quantity's key by the unknowns, over all figures with unknowns there, in the homotopy's unit.
 fn slopes(
-    within: &Within,
+    homotopy: &Homotopy,
     quantity: &Quantity,
-    there: impl Fn(usize) -> [Interval; 3],
+    there: impl Fn(usize) -> Interval,
     near: f64,
 ) -> Vec<(usize, Interval)> {
-    let homotopy = within.homotopy();
-    let mut out = Vec::new();
+    let unit = point(homotopy.unit);
+    let mut out: Vec<(usize, Interval)> = Vec::new();
     for &q in quantity.points() {
         for axis in 0..homotopy.dimension {
             let Some(i) = homotopy.coordinate(q, axis) else {
@@ -436,14 +528,14 @@ fn slopes(
             if out.iter().any(|(other, _)| *other == i) {
                 continue;
             }
-            // An unknown is in the homotopy's unit, and may be the coordinate of several points.
+            // An unknown may be the coordinate of several points.
             let along = |p: usize| -> [Along; 3] {
-                let at = there(p);
+                let at = homotopy.place(p, |i| there(i) * unit);
                 array(|k| {
                     let moves = homotopy.coordinate(p, k) == Some(i);
                     Along {
                         value: at[k],
-                        slope: point(if moves { homotopy.unit } else { 0.0 }),
+                        slope: if moves { unit } else { point(0.0) },
                     }
                 })
             };

@@ -22,6 +22,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+use super::parts::Proved;
 use super::{Study, checked, studied};
 use crate::blocks::Account;
 use crate::complete::{self, Part, ranged};
@@ -114,8 +115,8 @@ pub fn study_all(
             if !(0..homotopy.equations).all(|i| own.nominal(i).subset(x[i])) {
                 return Err(ELSEWHERE.to_owned());
             }
-            let within = own.prove().ok_or(NOT_BOUNDED)?;
-            studied(&drawn, limits, within, &quantities, control)
+            let proved = Proved::new(own, control).map_err(|_| NOT_BOUNDED)?;
+            studied(&drawn, limits, proved, &quantities, control)
         };
         let study = study();
         OfSet { bands, study }

@@ -1,0 +1,242 @@
+//! A figure of which dimensions are anywhere within limits.
+
+use super::ending::{Edited, Keep};
+use super::open::OpenError;
+use super::setting::Setting;
+use super::way::Way as _;
+use super::whole::Whole;
+use crate::blocks::Account;
+use crate::constraint::try_lower_apart;
+use crate::interval::Interval;
+use crate::problem::{Decimal, Problem, Target};
+use crate::system::{Homotopy, Right};
+use crate::track::{Control, Options, StartError};
+use std::rc::Rc;
+use std::slice;
+
+/// Between which values a dimension is.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Limits {
+    /// The index, as in [`Setting`].
+    pub index: usize,
+    /// The least and the greatest value.
+    pub values: [Decimal; 2],
+}
+
+/// A value of a dimension, and what equations say then.
+#[derive(Debug)]
+pub(crate) struct Value {
+    /// The value.
+    pub decimal: Decimal,
+    /// The right-hand sides of the equations that have it.
+    rights: Vec<Interval>,
+}
+
+/// For each of the limits between which values the dimension is.
+pub(crate) type Part = Vec<[Rc<Value>; 2]>;
+
+/// A figure and its equations, of which dimensions are anywhere within limits.
+pub(crate) struct Limited {
+    whole: Whole,
+    limits: Vec<Limits>,
+    /// The right-hand sides with the dimensions as they are given.
+    now: Vec<Interval>,
+    /// For each of the limits the equations that have the dimension.
+    equations: Vec<Vec<usize>>,
+    /// All choices.
+    pub within: Part,
+    /// These and the dimensions as they are given, and all between.
+    pub all: Part,
+}
+
+impl Limited {
+    /// Takes the sketch of a checked problem for the figure, as [`super::Session`] does.
+    ///
+    /// Limits are those of distances between points and of constraints of which the right-hand side of each equation grows with the
+    /// value, or falls, and is that of no other dimension ([`try_lower_apart`]).
+    pub fn open(
+        problem: &Problem,
+        limits: &[Limits],
+        options: &Options,
+        control: &mut Control,
+    ) -> Result<Self, OpenError> {
+        let mut whole = Whole::open_lowered(problem, try_lower_apart, options, control)?;
+        let now = whole.rights_now();
+        let mut limited = Limited {
+            whole,
+            limits: limits.to_vec(),
+            equations: Vec::new(),
+            within: Vec::new(),
+            all: Vec::new(),
+            now,
+        };
+        for (k, one) in limits.iter().enumerate() {
+            let mut ends = Vec::new();
+            for value in &one.values {
+                let setting = Setting::to(one.index, value.clone());
+                ends.push(limited.whole.rights_with(&setting)?);
+            }
+            // Those that are not this dimension's stay what they are.
+            let changes = |e: &usize| ends.iter().any(|end| end[*e] != limited.now[*e]);
+            let own: Vec<usize> = (0..limited.now.len()).filter(changes).collect();
+            if own
+                .iter()
+                .any(|e| limited.equations.iter().flatten().any(|other| other == e))
+            {
+                let name = problem.dimension_name(one.index);
+                let what = format!(
+                    "{name}: an equation has the number of another dimension with limits as well; give one of both none"
+                );
+                return Err(StartError::Unsupported(what).into());
+            }
+            limited.equations.push(own);
+            let [low, high] = &one.values;
+            let ends = [
+                limited.value(k, low.clone())?,
+                limited.value(k, high.clone())?,
+            ];
+            let mut all = ends.clone();
+            if let Target::Length(given) = Setting::now(problem, one.index).target {
+                if given.value() < low.value() {
+                    all[0] = limited.value(k, given)?;
+                } else if given.value() > high.value() {
+                    all[1] = limited.value(k, given)?;
+                }
+            }
+            limited.within.push(ends);
+            limited.all.push(all);
+        }
+        Ok(limited)
+    }
+
+    /// A value of the dimension of one of the limits.
+    pub fn value(&mut self, k: usize, decimal: Decimal) -> Result<Rc<Value>, OpenError> {
+        let setting = Setting::to(self.limits[k].index, decimal.clone());
+        let all = self.whole.rights_with(&setting)?;
+        let rights = self.equations[k].iter().map(|&e| all[e]).collect();
+        Ok(Rc::new(Value { decimal, rights }))
+    }
+
+    /// The right-hand sides over all choices of a part.
+    pub fn rights(&self, part: &Part) -> Vec<Interval> {
+        let mut rights = self.now.clone();
+        for (own, [low, high]) in self.equations.iter().zip(part) {
+            for (at, &e) in own.iter().enumerate() {
+                rights[e] = low.rights[at].convex_hull(high.rights[at]);
+            }
+        }
+        rights
+    }
+
+    /// The equations that have the dimension of one of the limits, and by how much their right-hand sides grow as it goes through part of these.
+    pub fn growth(&self, k: usize, part: &Part) -> Vec<(usize, Interval)> {
+        let [low, high] = &part[k];
+        let grown = high.rights.iter().zip(&low.rights);
+        let grown = grown.map(|(high, low)| *high - *low);
+        self.equations[k].iter().copied().zip(grown).collect()
+    }
+
+    /// Where the unknowns are with the dimensions as they are given, in the homotopy's unit, and the right-hand sides.
+    pub fn given(&self) -> (Vec<Interval>, Vec<Interval>) {
+        let unknowns = 0..self.homotopy().equations;
+        (
+            unknowns.map(|i| self.nominal(i)).collect(),
+            self.now.clone(),
+        )
+    }
+
+    /// Whether the dimensions as they are given are a choice of a part.
+    pub fn is_given_in(&self, part: &Part) -> bool {
+        let all = self.now.iter().zip(self.rights(part));
+        all.into_iter().all(|(now, range)| now.subset(range))
+    }
+
+    /// Whether other equations are the same, with the same ranges.
+    pub fn is_same(&self, other: &Limited) -> bool {
+        let (one, two) = (self.homotopy(), other.homotopy());
+        let mut rows = 0..one.equations;
+        let rights = [self, other].map(|limited| limited.rights(&limited.all));
+        (one.equations, one.unit) == (two.equations, two.unit)
+            && rights[0] == rights[1]
+            && rows.all(|e| one.terms(e) == two.terms(e))
+    }
+
+    /// The equations' homotopy.
+    pub fn homotopy(&self) -> &Homotopy {
+        self.whole.homotopy()
+    }
+
+    /// The equations with the ranges of their right-hand sides at t = 1.
+    pub fn ranges(&self) -> Homotopy {
+        let mut homotopy = self.homotopy().clone();
+        for (right, range) in homotopy.rights.iter_mut().zip(self.rights(&self.all)) {
+            *right = Right::anywhere(range);
+        }
+        homotopy
+    }
+
+    /// What is proved of its figures.
+    pub fn account(&self) -> Account {
+        self.whole.account()
+    }
+
+    /// Where an unknown is in the figure with the dimensions as they are given, in the homotopy's unit.
+    pub fn nominal(&self, i: usize) -> Interval {
+        self.whole.figure().enclosure(i)
+    }
+
+    /// The middle of that.
+    pub fn centre(&self) -> &[f64] {
+        &self.whole.figure().centre
+    }
+
+    /// That figure, in the coordinates of the problem.
+    pub fn figure(&self) -> Vec<[Interval; 3]> {
+        self.whole.points()
+    }
+
+    /// A figure in the gauge, in lengths of the problem, in the coordinates of the problem.
+    pub fn put(&self, places: &[[Interval; 3]]) -> Vec<[Interval; 3]> {
+        self.whole.put(places)
+    }
+
+    /// Leads dimensions together, in proportion, from what they are given as to others, by a path that is proved.
+    pub fn lead(&mut self, to: &[(usize, Rc<Value>)], control: &mut Control) -> Edited {
+        let setting = |(k, value): &(usize, Rc<Value>)| {
+            Setting::to(self.limits[*k].index, value.decimal.clone())
+        };
+        let settings: Vec<Setting> = to.iter().map(setting).collect();
+        self.whole.edit(&settings, Keep::Never, control)
+    }
+}
+
+impl Whole {
+    /// The right-hand sides with another value of a dimension.
+    fn rights_with(&mut self, setting: &Setting) -> Result<Vec<Interval>, OpenError> {
+        self.lead_constraints(slice::from_ref(setting))
+            .map_err(StartError::Unsupported)?;
+        let distances = &self.problem().distances;
+        let now = distances.get(setting.index).map(|d| d.target.clone());
+        if now.is_some() {
+            self.homotopy_mut().hold(setting.index, &setting.target);
+        }
+        let found = rights(self.homotopy());
+        if let Some(now) = now {
+            self.homotopy_mut().hold(setting.index, &now);
+        }
+        Ok(found)
+    }
+
+    /// The right-hand sides as they are now.
+    fn rights_now(&mut self) -> Vec<Interval> {
+        // What an edit of nothing leads constraints to is what they are.
+        let _ = self.lead_constraints(&[]);
+        rights(self.homotopy())
+    }
+}
+
+/// The right-hand sides at t = 1.
+fn rights(homotopy: &Homotopy) -> Vec<Interval> {
+    let all = homotopy.rights.iter();
+    all.map(|right| right.at_target()).collect()
+}

@@ -1,0 +1,245 @@
+//! The least and the greatest that something measured can be.
+//!
+//! Where it is certain over all figures of a part which way it goes with a dimension, it is greatest at an end of that dimension's limits. What
+//! is left of the part is one figure, or it is cut in a dimension of which that is not certain; parts that cannot have more than is reached
+//! already are left out.
+
+use super::family::Family;
+use super::parts::{Piece, Proved};
+use super::slopes;
+use crate::edit::{Limited, Part};
+use crate::interval::{Interval, point};
+use crate::problem::Decimal;
+use crate::system::Quantity;
+use crate::track::Control;
+use std::rc::Rc;
+
+/// A bound of the keys of something measured, and a figure that comes near to it.
+pub(super) struct Extreme {
+    /// No figure goes beyond.
+    pub outer: f64,
+    /// A figure goes at least so far.
+    pub inner: f64,
+    /// The values of the dimensions with limits at which it does.
+    pub corner: Vec<Decimal>,
+}
+
+/// A part of the limits that is still to be looked at.
+struct Open {
+    part: Part,
+    family: Rc<Family>,
+    /// No figure of it goes beyond, with the sign of the side.
+    bound: f64,
+    /// Nothing better is to be had.
+    is_done: bool,
+}
+
+/// Whatever is measured: of figures of these, near this key.
+pub(super) struct Measure<'a> {
+    pub quantity: &'a Quantity,
+    pub near: f64,
+    /// So many products of numbers, about, may be made for each of its bounds.
+    pub work: usize,
+}
+
+impl Measure<'_> {
+    /// The key over all figures of a family; of an angle at points that may come together, everything.
+    pub fn over(&self, limited: &Limited, family: &Family) -> Interval {
+        let homotopy = limited.homotopy();
+        let unit = point(homotopy.unit);
+        let place = |at: &dyn Fn(usize) -> Interval| {
+            let at = |p: usize| homotopy.place(p, |i| at(i) * unit);
+            self.quantity.key(at, self.near)
+        };
+        let middle = place(&|i| point(family.middle.centre[i]));
+        let all = slopes(homotopy, self.quantity, |i| family.near(i), self.near);
+        let by_slopes = middle + family.change(&all);
+        if self.quantity.is_in_degrees() && !by_slopes.wid().is_finite() {
+            return by_slopes;
+        }
+        by_slopes.intersection(place(&|i| family.enclosure(i)))
+    }
+}
+
+impl Proved {
+    /// The greatest key, or the least, over all choices within limits; `range`: about how far these are apart.
+    pub(super) fn extreme(
+        &mut self,
+        measure: &Measure,
+        greatest: bool,
+        range: f64,
+        control: &Control,
+    ) -> Extreme {
+        /// What is reached is so near to what is possible, of the range.
+        const NEAR: f64 = 0.004;
+        const MANY: f64 = 8.0;
+        /// So many parts are looked at.
+        const MOST: usize = 60;
+        let sign = if greatest { 1.0 } else { -1.0 };
+        let upper = |key: Interval| if greatest { key.sup() } else { -key.inf() };
+        let lower = |key: Interval| if greatest { key.inf() } else { -key.sup() };
+        let work = self.pieces.iter().map(|piece| piece.family.work()).max();
+        let mut left = (measure.work / work.unwrap_or(0).max(1)).clamp(1, MOST);
+        let mut best = Extreme {
+            outer: f64::NEG_INFINITY,
+            inner: f64::NEG_INFINITY,
+            corner: Vec::new(),
+        };
+        let mut open = Vec::new();
+        for Piece { part, family } in &self.pieces {
+            let clipped = clipped(part, &self.limited.within);
+            open.extend(clipped.map(|part| Open {
+                bound: upper(measure.over(&self.limited, family)),
+                family: family.clone(),
+                part,
+                is_done: false,
+            }));
+        }
+        let limited = &mut self.limited;
+        loop {
+            let all = open.iter().enumerate();
+            let top = all.max_by(|a, b| a.1.bound.total_cmp(&b.1.bound));
+            let Some(at) = top.map(|(at, _)| at) else {
+                best.outer = best.inner;
+                break;
+            };
+            let top = open.swap_remove(at);
+            best.outer = top.bound;
+            if top.is_done || top.bound <= best.inner || left == 0 || control.is_interrupted() {
+                break;
+            }
+            let slopes = slopes(
+                limited.homotopy(),
+                measure.quantity,
+                |i| top.family.near(i),
+                measure.near,
+            );
+            // Which way it goes with each dimension: for certain, about, and how much.
+            let mut part = top.part.clone();
+            let mut corner = top.part.clone();
+            let mut unsure: Option<(usize, f64)> = None;
+            let mut is_smaller = false;
+            // How much more there may be than at the corner.
+            let mut slack = 0.0f64;
+            for k in 0..part.len() {
+                if part[k][0].decimal.value() == part[k][1].decimal.value() {
+                    continue;
+                }
+                let changes: Vec<Interval> = limited
+                    .growth(k, &part)
+                    .into_iter()
+                    .map(|(e, grown)| point(sign) * grown * top.family.speed(e, &slopes))
+                    .collect();
+                let about: f64 = changes.iter().map(|x| x.mid()).sum();
+                let end = usize::from(about > 0.0);
+                corner[k] = [top.part[k][end].clone(), top.part[k][end].clone()];
+                if changes.iter().all(|x| x.inf() >= 0.0) || changes.iter().all(|x| x.sup() <= 0.0)
+                {
+                    part[k] = corner[k].clone();
+                    is_smaller = true;
+                } else {
+                    let wrong = |x: &Interval| if end == 1 { -x.inf() } else { x.sup() };
+                    changes
+                        .iter()
+                        .for_each(|x| slack = (slack + wrong(x).max(0.0)).next_up());
+                    let size = changes.iter().map(|x| x.mag()).sum();
+                    if unsure.is_none_or(|(_, most)| size > most) {
+                        unsure = Some((k, size));
+                    }
+                }
+            }
+            left -= 1;
+            if let Some((figure, _)) = limited.figure_with(&corner, &top.family) {
+                let homotopy = limited.homotopy();
+                let unit = point(homotopy.unit);
+                let key = measure
+                    .quantity
+                    .key(|p| homotopy.place(p, |i| figure[i] * unit), measure.near);
+                if lower(key) > best.inner {
+                    best.inner = lower(key);
+                    best.corner = corner.iter().map(|[low, _]| low.decimal.clone()).collect();
+                }
+                let bound = (upper(key) + slack).next_up().min(top.bound);
+                if unsure.is_none() || left == 0 || bound <= best.inner + NEAR * range {
+                    open.push(Open {
+                        bound,
+                        is_done: true,
+                        ..top
+                    });
+                    continue;
+                }
+            }
+            if top.bound <= best.inner + NEAR * range {
+                break;
+            }
+            let parts = match (is_smaller, unsure) {
+                (true, _) => vec![part],
+                // Where many dimensions are unsure alike, halves of one are as the whole.
+                (false, Some((k, most))) if most.is_infinite() || slack < MANY * most => {
+                    limited.halved(&part, k).map_or(Vec::new(), Vec::from)
+                }
+                (false, _) => Vec::new(),
+            };
+            let families: Option<Vec<Open>> = parts
+                .into_iter()
+                .map(|part| {
+                    let family = limited.narrower(&part, &top.family)?;
+                    let bound = upper(measure.over(limited, &family)).min(top.bound);
+                    Some(Open {
+                        part,
+                        family: Rc::new(family),
+                        bound,
+                        is_done: false,
+                    })
+                })
+                .collect();
+            match families {
+                Some(families) if !families.is_empty() => open.extend(families),
+                _ => open.push(Open {
+                    is_done: true,
+                    ..top
+                }),
+            }
+        }
+        Extreme {
+            outer: sign * best.outer.max(best.inner),
+            inner: sign * best.inner,
+            corner: best.corner,
+        }
+    }
+}
+
+impl Limited {
+    /// The figures of a part of a family's choices.
+    fn narrower(&self, part: &Part, family: &Family) -> Option<Family> {
+        let found = self.family(part, &family.middle)?;
+        // As one figure is the family's, with a choice that is a corner, all are.
+        let corner: Part = part
+            .iter()
+            .map(|[low, _]| [low.clone(), low.clone()])
+            .collect();
+        let (figure, rights) = self.figure_with(&corner, family)?;
+        found.has(&figure, &rights).then_some(found)
+    }
+}
+
+/// What parts have in common.
+fn clipped(part: &Part, other: &Part) -> Option<Part> {
+    let each = part.iter().zip(other);
+    let each = each.map(|([low, high], [least, most])| {
+        let value = |x: &Rc<crate::edit::Value>| x.decimal.value().clone();
+        let low = if value(low) < value(least) {
+            least
+        } else {
+            low
+        };
+        let high = if value(high) > value(most) {
+            most
+        } else {
+            high
+        };
+        (value(low) <= value(high)).then(|| [low.clone(), high.clone()])
+    });
+    let part: Part = each.collect::<Option<_>>()?;
+    Some(part)
+}

@@ -1,0 +1,519 @@
+//! All figures that a figure becomes as right-hand sides of its equations go through ranges: exactly one for every choice of them, by one test of
+//! Krawczyk.
+//!
+//! The equations are quadratic, left(x) = r. About a middle c with Jacobian J and Y ≈ J⁻¹, what u = x − c is of a zero x is
+//!
+//! u = Y (r − left(c)) − Y Q(u) + (I − Y J) u,
+//!
+//! with Q the part of second order, exactly. So u is linear in r but for a rest of second order, and the Jacobian and Q depend on nothing but the
+//! differences of unknowns that are multiplied in the equations. Both are bounded difference by difference: what two points that are joined
+//! do together, such as turning with all before them, is not counted as if each did it alone.
+
+use crate::elimination::invert;
+use crate::equations::Form;
+use crate::interval::{Interval, around, hull, point};
+use crate::system::Homotopy;
+use std::cell::OnceCell;
+
+/// The test is tried with so many boxes, each made after what the one before came to.
+const ROUNDS: usize = 40;
+
+/// What is bounded in the norm is bounded again so often, as what it is made of.
+const TIMES: usize = 3;
+
+/// Boxes in which there is one figure are at least so wide, of the figure's size, so that figures that are known almost as well are seen to be in
+/// them.
+const ROOM: f64 = 1e-11;
+
+/// No figure is so far from a middle, in units of length: what comes to that is given up.
+const FAR: f64 = 1e9;
+
+/// Two unknowns, of which the first is taken less the second; `None` is the number 0.
+type Difference = [Option<usize>; 2];
+
+/// Half a factor times the product of two differences, by their numbers.
+type Term = (Interval, usize, usize);
+
+/// All figures with right-hand sides in ranges that are near a figure: for every choice exactly one.
+pub(super) struct Family {
+    /// What they are seen from.
+    pub middle: Middle,
+    /// The differences in the equations; before these each unknown itself.
+    differences: Vec<Difference>,
+    /// The terms of second order of each equation.
+    terms: Vec<Vec<Term>>,
+    /// Of each difference what each equation gives, by Y.
+    applied: Vec<Interval>,
+    /// I − Y J in the middle.
+    defect: Vec<Interval>,
+    /// The left-hand sides in the middle.
+    left: Vec<Interval>,
+    /// Their right-hand sides less these, for all choices.
+    grown: Vec<Interval>,
+    /// Of each difference as seen from the middle the part of second order, so bounded that the figure with each choice is the only one for which
+    /// all differences are so.
+    only: Vec<Interval>,
+    /// Of each difference as seen from the middle the part that is linear in the right-hand sides.
+    linear: Vec<Interval>,
+    /// A sharper bound of what is of second order.
+    rest: Vec<Interval>,
+    /// Of each difference as seen from the middle all that it can be.
+    around: Vec<Interval>,
+    /// A norm: the greatest of |difference| / weight. In it I − Y J, with J that of any two figures' middle, is less than `contraction`.
+    weights: Vec<f64>,
+    contraction: f64,
+    /// What is asked for seldom: [`Family::more`].
+    more: OnceCell<Vec<f64>>,
+}
+
+/// A middle and about the inverse of the Jacobian there.
+pub(super) struct Middle {
+    /// One entry per unknown, in the homotopy's unit.
+    pub centre: Vec<f64>,
+    /// Row by row.
+    pub inverse: Vec<f64>,
+}
+
+impl Middle {
+    /// A place that is known. `None`: the Jacobian is singular there.
+    pub fn at(homotopy: &Homotopy, centre: Vec<f64>) -> Option<Self> {
+        let m = homotopy.equations;
+        let mut inverse = Vec::with_capacity(m * m);
+        for e in 0..m {
+            let slopes = homotopy.slopes(e, |i| point(centre[i]));
+            inverse.extend(slopes.iter().map(|x| x.mid()));
+        }
+        let is_regular = invert(&mut inverse, m) && inverse.iter().all(|x| x.is_finite());
+        is_regular.then_some(Middle { centre, inverse })
+    }
+
+    /// The zero with these right-hand sides that Newton's method comes to from here, in floats: no claim.
+    fn zero(&self, homotopy: &Homotopy, rights: &[Interval]) -> Option<Vec<f64>> {
+        const STEPS: usize = 30;
+        let m = homotopy.equations;
+        let mut renewed: Option<Middle> = None;
+        let mut x = self.centre.clone();
+        let mut before = f64::INFINITY;
+        for _ in 0..STEPS {
+            let missed: Vec<f64> = (0..m)
+                .map(|e| rights[e].mid() - homotopy.left_side(e, |i| point(x[i])).mid())
+                .collect();
+            let inverse = renewed.as_ref().map_or(&self.inverse, |one| &one.inverse);
+            let mut size = 0.0f64;
+            for (row, x) in inverse.chunks(m.max(1)).zip(&mut x) {
+                let step: f64 = row.iter().zip(&missed).map(|(y, f)| y * f).sum();
+                *x += step;
+                size = size.max(step.abs() / (1.0 + x.abs()));
+            }
+            if !size.is_finite() {
+                return None;
+            }
+            if size <= 8.0 * f64::EPSILON || size <= 1e-12 && size >= before {
+                break;
+            }
+            if size > 0.1 * before {
+                renewed = Some(Self::at(homotopy, x.clone())?);
+            }
+            before = size;
+        }
+        Some(x)
+    }
+
+    /// A middle there.
+    pub fn led(&self, homotopy: &Homotopy, rights: &[Interval]) -> Option<Self> {
+        Self::at(homotopy, self.zero(homotopy, rights)?)
+    }
+}
+
+impl Family {
+    /// Proves that for every choice of right-hand sides in these ranges there is exactly one figure about a middle. `None`: that is not proved.
+    pub fn prove(homotopy: &Homotopy, middle: Middle, rights: &[Interval]) -> Option<Self> {
+        let Middle { centre, inverse } = &middle;
+        let m = homotopy.equations;
+        let mut differences: Vec<Difference> = (0..m).map(|i| [Some(i), None]).collect();
+        let terms = (0..m)
+            .map(|e| terms(homotopy, e, &mut differences))
+            .collect();
+        let at = |i: usize| point(centre[i]);
+        let left: Vec<Interval> = (0..m).map(|e| homotopy.left_side(e, at)).collect();
+        let grown = rights.iter().zip(&left).map(|(right, left)| *right - *left);
+        let mut defect = vec![point(0.0); m * m];
+        for e in 0..m {
+            let slopes = homotopy.slopes(e, at).into_iter().enumerate();
+            let slopes: Vec<_> = slopes.filter(|(_, x)| *x != point(0.0)).collect();
+            for i in 0..m {
+                let y = point(inverse[i * m + e]);
+                if y != point(0.0) {
+                    slopes.iter().for_each(|&(j, x)| defect[i * m + j] -= y * x);
+                }
+            }
+        }
+        (0..m).for_each(|i| defect[i * m + i] += point(1.0));
+        let applied = differences.iter().flat_map(|ends| {
+            let [a, b] = ends.map(|end| end.map(|i| &inverse[i * m..(i + 1) * m]));
+            (0..m).map(move |e| {
+                let [a, b] = [a, b].map(|row| row.map_or(0.0, |row| row[e]));
+                point(a) - point(b)
+            })
+        });
+        let applied = applied.collect();
+        let mut family = Family {
+            middle,
+            applied,
+            terms,
+            defect,
+            grown: grown.collect(),
+            left,
+            only: Vec::new(),
+            linear: Vec::new(),
+            rest: Vec::new(),
+            around: Vec::new(),
+            weights: Vec::new(),
+            contraction: 1.0,
+            more: OnceCell::new(),
+            differences,
+        };
+        // While the norm is sought, figures may be wherever there may be one only.
+        (family.is_mapped_into_itself() && family.contracts()).then_some(())?;
+        family.around = sums(&family.linear, &family.rest);
+        // Beyond, equations have zeros that are no figures.
+        let at = |i: usize| point(family.middle.centre[i]) + family.around[i];
+        homotopy.is_proper_over(at).then_some(family)
+    }
+
+    /// Looks for bounds of the rest that the equations' map keeps: of each choice's figures, which are those within them of a linear function of the
+    /// choice, a convex set that is not empty, as 0 is among the bounds, the image lies in the set, and so a zero by Brouwer's theorem.
+    fn is_mapped_into_itself(&mut self) -> bool {
+        let wider = |x: &Interval, ends: &Difference| {
+            let at = |end: &Option<usize>| end.map_or(0.0, |i| self.middle.centre[i].abs());
+            let room = ROOM * (1.0 + ends.iter().map(at).fold(0.0, f64::max));
+            hull(
+                (1.1 * x.inf()).min(0.0) - room,
+                (1.1 * x.sup()).max(0.0) + room,
+            )
+        };
+        self.linear = self.image(&self.grown, &[]);
+        let mut image = vec![point(0.0); self.differences.len()];
+        for _ in 0..ROUNDS {
+            let all = image.iter().zip(&self.differences);
+            self.only = all.map(|(x, ends)| wider(x, ends)).collect();
+            self.around = sums(&self.linear, &self.only);
+            let second = self.second_order(|e| {
+                sum(self.terms[e].iter().map(|&(factor, a, b)| {
+                    factor
+                        * match a == b {
+                            true => self.around[a].sqr(),
+                            false => self.around[a] * self.around[b],
+                        }
+                }))
+            });
+            image = self.image(&second, &self.around);
+            // Beyond, sums of what is bounded are no numbers.
+            if image.iter().any(|x| x.mag().is_nan() || x.mag() > FAR) {
+                return false;
+            }
+            if image.iter().zip(&self.only).all(|(x, set)| x.subset(*set)) {
+                self.rest = image;
+                return true;
+            }
+        }
+        false
+    }
+
+    /// Minus what each equation says, to be multiplied by Y.
+    fn second_order(&self, of: impl Fn(usize) -> Interval) -> Vec<Interval> {
+        (0..self.terms.len()).map(|e| -of(e)).collect()
+    }
+
+    /// Of Y f + (I − Y J) u each difference; the unknowns' u come first, and where there are none that part is left out.
+    fn image(&self, f: &[Interval], u: &[Interval]) -> Vec<Interval> {
+        let m = self.middle.centre.len();
+        let from_middle: Vec<Interval> = match u.get(..m) {
+            None => vec![point(0.0); m],
+            Some(u) => {
+                let rows = self.defect.chunks(m.max(1));
+                rows.map(|row| sum(row.iter().zip(u).map(|(r, u)| *r * *u)))
+                    .collect()
+            }
+        };
+        let rows = self.differences.iter().zip(self.applied.chunks(m.max(1)));
+        rows.map(|(ends, row)| {
+            let [a, b] = ends.map(|end| end.map_or(point(0.0), |i| from_middle[i]));
+            sum(row.iter().zip(f).map(|(y, f)| *y * *f)) + (a - b)
+        })
+        .collect()
+    }
+
+    /// Looks for a norm in which I − Y J is less than 1, J being the Jacobian in the middle between any two figures that are bounded alike: as F(ξ) −
+    /// F(η) = J((ξ + η)/2) (ξ − η), there is one for each choice. It is sought as s = first + N s.
+    fn contracts(&mut self) -> bool {
+        /// Less than this is sought for a while.
+        const ENOUGH: f64 = 0.5;
+        let sizes = self.around.iter().map(|x| x.mag());
+        // What hardly moves is not weighed as if nothing about it could be wrong.
+        let least = 1e-3 * sizes.clone().fold(f64::EPSILON, f64::max);
+        let first: Vec<f64> = sizes.map(|size| size + least).collect();
+        let mut weights = first.clone();
+        for _ in 0..ROUNDS {
+            let image = self.norm_of_image(&weights);
+            let norm = greatest_part(&image, &weights);
+            let next = first.iter().zip(&image).map(|(a, b)| a + b).collect();
+            let tried = std::mem::replace(&mut weights, next);
+            if norm < self.contraction {
+                (self.weights, self.contraction) = (tried, norm);
+            }
+            let is_far = weights.iter().any(|s| s.is_nan() || *s > FAR);
+            if norm < ENOUGH || norm.is_nan() || is_far {
+                break;
+            }
+        }
+        self.contraction < 1.0
+    }
+
+    /// Bounds of the differences of (I − Y J) v, where those of v are bounded.
+    fn norm_of_image(&self, bounds: &[f64]) -> Vec<f64> {
+        let v: Vec<Interval> = bounds.iter().map(|&s| hull(-s, s)).collect();
+        self.of_slopes(&v).iter().map(|x| x.mag()).collect()
+    }
+
+    /// The differences of (I − Y J) v with the differences of v there, J the Jacobian at any of the figures.
+    fn of_slopes(&self, v: &[Interval]) -> Vec<Interval> {
+        let turned = self.second_order(|e| {
+            sum(self.terms[e].iter().map(|&(factor, a, b)| {
+                factor
+                    * match a == b {
+                        true => point(2.0) * self.around[a] * v[a],
+                        false => self.around[a] * v[b] + self.around[b] * v[a],
+                    }
+            }))
+        });
+        self.image(&turned, v)
+    }
+
+    /// How fast something changes with the right-hand side of an equation, over all figures, of which these are the derivatives by the unknowns.
+    pub fn speed(&self, e: usize, slopes: &[(usize, Interval)]) -> Interval {
+        let m = self.middle.centre.len();
+        let more = self.more.get_or_init(|| self.more());
+        let speed = |i: usize| around(self.middle.inverse[i * m + e], more[i * m + e]);
+        sum(slopes.iter().map(|&(i, slope)| slope * speed(i)))
+    }
+
+    /// By how much how fast each unknown changes with each right-hand side may differ from Y, row by row: the speeds with a right-hand side are v =
+    /// Y e + (I − Y J) v, and what bounds them in the norm is put in on the right, again and again.
+    ///
+    /// All numbers are at least 0, so that sums of n products that are rounded are wrong by a part of n ε at most (Higham, Accuracy and Stability
+    /// of Numerical Algorithms, 2002, section 3.1, where it is half of that).
+    fn more(&self) -> Vec<f64> {
+        let m = self.middle.centre.len();
+        let all = self.differences.len();
+        let most = |x: &Interval| x.mag();
+        let applied: Vec<f64> = self.applied.iter().map(most).collect();
+        let defect: Vec<f64> = self.defect.iter().map(most).collect();
+        let sizes: Vec<f64> = self.around.iter().map(most).collect();
+        let terms = self.terms.iter().map(Vec::len).max().unwrap_or(0);
+        let up = 1.0 + (4 * m + 4 * terms + 20) as f64 * f64::EPSILON;
+        // Of each difference with each right-hand side.
+        let mut bounds = vec![0.0; all * m];
+        for e in 0..m {
+            let column: Vec<f64> = applied.iter().skip(e).step_by(m).copied().collect();
+            let norm = greatest_part(&column, &self.weights);
+            let norm = point(norm) / (point(1.0) - point(self.contraction));
+            for (k, is_moved) in self.moved(e).into_iter().enumerate() {
+                if is_moved {
+                    bounds[k * m + e] = (norm * point(self.weights[k])).sup();
+                }
+            }
+        }
+        let add = |sum: &mut [f64], factor: f64, row: &[f64]| {
+            if factor != 0.0 {
+                sum.iter_mut()
+                    .zip(row)
+                    .for_each(|(sum, x)| *sum += factor * x);
+            }
+        };
+        let mut image = vec![0.0; all * m];
+        for _ in 0..TIMES {
+            let mut turned = vec![0.0; m * m];
+            for (terms, sum) in self.terms.iter().zip(turned.chunks_mut(m)) {
+                for &(factor, a, b) in terms {
+                    let [of_a, of_b] = [a, b].map(|k| &bounds[k * m..(k + 1) * m]);
+                    add(sum, factor.mag() * sizes[a], of_b);
+                    add(sum, factor.mag() * sizes[b], of_a);
+                }
+            }
+            let mut from_middle = vec![0.0; m * m];
+            for (row, sum) in defect.chunks(m).zip(from_middle.chunks_mut(m)) {
+                let rows = row.iter().zip(bounds.chunks(m));
+                rows.for_each(|(&factor, of)| add(sum, factor, of));
+            }
+            image.fill(0.0);
+            let rows = self.differences.iter().zip(applied.chunks(m));
+            for ((ends, row), sum) in rows.zip(image.chunks_mut(m)) {
+                let rows = row.iter().zip(turned.chunks(m));
+                rows.for_each(|(&factor, of)| add(sum, factor, of));
+                for &i in ends.iter().flatten() {
+                    add(sum, 1.0, &from_middle[i * m..(i + 1) * m]);
+                }
+                // What was rounded to 0 is less.
+                sum.iter_mut()
+                    .for_each(|x| *x = *x * up + f64::MIN_POSITIVE);
+            }
+            for ((bound, x), own) in bounds.iter_mut().zip(&image).zip(&applied) {
+                *bound = bound.min((own + x) * up);
+            }
+        }
+        image.truncate(m * m);
+        image
+    }
+
+    /// Which differences a right-hand side can change: those that Y and I − Y J lead to from it.
+    fn moved(&self, e: usize) -> Vec<bool> {
+        let m = self.middle.centre.len();
+        let mut moved = vec![false; self.differences.len()];
+        let mut equations = vec![false; m];
+        let mut new = vec![e];
+        while !new.is_empty() {
+            let nothing = point(0.0);
+            let mut entries = vec![false; m];
+            new.iter().for_each(|&e| equations[e] = true);
+            for (k, row) in self.applied.chunks(m).enumerate() {
+                if !moved[k] && new.iter().any(|&e| row[e] != nothing) {
+                    moved[k] = true;
+                }
+            }
+            for (i, row) in self.defect.chunks(m).enumerate() {
+                entries[i] = row
+                    .iter()
+                    .zip(&moved)
+                    .any(|(x, is_moved)| *is_moved && *x != nothing);
+            }
+            for (k, ends) in self.differences.iter().enumerate() {
+                moved[k] |= ends.iter().flatten().any(|&i| entries[i]);
+            }
+            let is_new = |e: &usize| {
+                let mut terms = self.terms[*e].iter();
+                !equations[*e] && terms.any(|&(_, a, b)| moved[a] || moved[b])
+            };
+            new = (0..m).filter(is_new).collect();
+        }
+        moved
+    }
+
+    /// Where the unknowns are in the one figure with these right-hand sides.
+    ///
+    /// It is x + d with d = Y (r − left(x)) + (I − Y J) d where x is near, and J that of the middle between both.
+    pub fn figure(&self, homotopy: &Homotopy, rights: &[Interval]) -> Option<Vec<Interval>> {
+        let x = self.middle.zero(homotopy, rights)?;
+        let at = |i: usize| point(x[i]);
+        let place: Vec<Interval> = (0..x.len()).map(at).collect();
+        self.has(&place, rights).then_some(())?;
+        let missed = rights.iter().enumerate();
+        let missed: Vec<Interval> = missed
+            .map(|(e, right)| *right - homotopy.left_side(e, at))
+            .collect();
+        let sizes: Vec<f64> = self.image(&missed, &[]).iter().map(|x| x.mag()).collect();
+        let norm = point(greatest_part(&sizes, &self.weights));
+        let norm = norm / (point(1.0) - point(self.contraction));
+        let bounds = self.weights.iter().map(|&s| (norm * point(s)).sup());
+        let mut bounds: Vec<f64> = bounds.collect();
+        for _ in 0..TIMES {
+            let image = self.norm_of_image(&bounds);
+            let all = bounds.iter_mut().zip(image.iter().zip(&sizes));
+            all.for_each(|(bound, (a, b))| *bound = bound.min((a + b).next_up()));
+        }
+        let all = x.iter().zip(&bounds);
+        let all = all.map(|(&x, &bound)| around(x, bound));
+        Some(all.collect())
+    }
+
+    /// Whether a figure, with these right-hand sides, is certainly the one of the family that has them.
+    pub fn has(&self, at: &[Interval], rights: &[Interval]) -> bool {
+        let grown = rights
+            .iter()
+            .zip(&self.left)
+            .map(|(right, left)| *right - *left);
+        let linear = self.image(&grown.collect::<Vec<_>>(), &[]);
+        let seen =
+            |end: Option<usize>| end.map_or(point(0.0), |i| at[i] - point(self.middle.centre[i]));
+        let all = self.differences.iter().zip(&linear).zip(&self.only);
+        let mut rests = all.map(|((&[a, b], linear), set)| (seen(a) - seen(b) - *linear, set));
+        rests.all(|(rest, set)| rest.subset(*set))
+    }
+
+    /// How many products it takes to find all [`Family::speed`]s, about.
+    pub fn work(&self) -> usize {
+        3 * self.applied.len() * self.middle.centre.len()
+    }
+
+    /// Where an unknown is, over all figures.
+    pub fn enclosure(&self, i: usize) -> Interval {
+        point(self.middle.centre[i]) + self.around[i]
+    }
+
+    /// By how much something changes over all figures, as seen from the middle, of which these are the derivatives by the unknowns that it
+    /// depends on, over all figures and all between them and the middle.
+    pub fn change(&self, slopes: &[(usize, Interval)]) -> Interval {
+        let m = self.middle.centre.len();
+        // What is linear in the right-hand sides is taken together, as each of these stands for itself.
+        let weight = |e: usize| {
+            sum(slopes
+                .iter()
+                .map(|(i, slope)| point(slope.mid()) * point(self.middle.inverse[i * m + e])))
+        };
+        let linear = sum((0..m).map(|e| weight(e) * self.grown[e]));
+        let rest = sum(slopes.iter().map(|&(i, slope)| {
+            let middle = point(slope.mid());
+            middle * self.rest[i] + (slope - middle) * self.around[i]
+        }));
+        linear + rest
+    }
+
+    /// Where an unknown is, over all figures and all between them and the middle.
+    pub fn near(&self, i: usize) -> Interval {
+        point(self.middle.centre[i]) + self.around[i].convex_hull(point(0.0))
+    }
+}
+
+/// The terms of second order of an equation, with the differences in them among all.
+fn terms(homotopy: &Homotopy, e: usize, differences: &mut Vec<Difference>) -> Vec<Term> {
+    let mut number = |form: Form<Option<usize>>| match form {
+        Form::One => None,
+        Form::Difference(a, b) => {
+            let known = match b {
+                None => a,
+                Some(_) => differences.iter().position(|&other| other == [a, b]),
+            };
+            Some(known.unwrap_or_else(|| {
+                differences.push([a, b]);
+                differences.len() - 1
+            }))
+        }
+    };
+    let products = homotopy.terms(e).into_iter();
+    let of = |product: crate::equations::Product<Option<usize>>| {
+        let half = point(0.5) * point(product.factor.into());
+        Some((half, number(product.left)?, number(product.right)?))
+    };
+    products.filter_map(of).collect()
+}
+
+/// The greatest of what each is of a weight, rounded up.
+fn greatest_part(all: &[f64], weights: &[f64]) -> f64 {
+    let parts = all.iter().zip(weights);
+    let parts = parts.map(|(&x, &weight)| (point(x) / point(weight)).sup());
+    parts.fold(0.0, |greatest, part| {
+        if greatest.is_nan() || part <= greatest {
+            greatest
+        } else {
+            part
+        }
+    })
+}
+
+fn sums(a: &[Interval], b: &[Interval]) -> Vec<Interval> {
+    a.iter().zip(b).map(|(a, b)| *a + *b).collect()
+}
+
+fn sum(terms: impl Iterator<Item = Interval>) -> Interval {
+    terms.fold(point(0.0), |sum, x| sum + x)
+}
