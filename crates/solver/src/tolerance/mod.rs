@@ -133,29 +133,30 @@ pub fn study(
         let limited = Limited::open(problem, limits, options, control);
         limited.map_err(|error| error.to_string())
     };
-    match Proved::new(open(limits, control)?, control) {
-        Ok(proved) => studied(problem, limits, proved, &quantities, control),
-        Err((_, Failure::Interrupted)) => Err("the run was ended before".to_owned()),
-        Err((mut limited, Failure::Part(part))) => {
-            if let Some(end) = end(problem, limits, (&mut limited, &part), control) {
-                return Err(format!(
-                    "there is not one figure for every choice of the dimensions: {end}"
-                ));
-            }
-            let part = (1..=10).find_map(|k| {
-                let part = scaled(problem, limits, k)?;
-                let is_proved = Proved::by_one_test(&open(&part, control).ok()?);
-                is_proved.then_some(1u32 << k)
-            });
-            let with = match part {
-                Some(part) => format!("with limits {part} times as narrow it is proved"),
-                None => "nor is it with limits a thousand times as narrow: the figure is at a limit of its dimensions, or near one".to_owned(),
-            };
-            Err(format!(
-                "it is not proved that there is one figure for every choice of the dimensions: it may flip or come apart within the limits; {with}"
-            ))
-        }
+    let (mut limited, failure) = match Proved::new(open(limits, control)?, control) {
+        Ok(proved) => return studied(problem, limits, proved, &quantities, control),
+        Err(failed) => *failed,
+    };
+    let Failure::Part(part) = failure else {
+        return Err("the run was ended before".to_owned());
+    };
+    if let Some(end) = end(problem, limits, (&mut limited, &part), control) {
+        return Err(format!(
+            "the figure comes to an end within the limits: {end}"
+        ));
     }
+    let part = (1..=10).find_map(|k| {
+        let part = scaled(problem, limits, k)?;
+        let is_proved = Proved::by_one_test(&open(&part, control).ok()?);
+        is_proved.then_some(1u32 << k)
+    });
+    let with = match part {
+        Some(part) => format!("with limits {part} times as narrow it is proved"),
+        None => "nor is it with limits a thousand times as narrow: the figure is at a limit of its dimensions, or near one".to_owned(),
+    };
+    Err(format!(
+        "it is not proved that there is one figure for every choice of the dimensions: it may flip or come apart within the limits; {with}"
+    ))
 }
 
 /// Where the figure comes to an end within its limits, in words, if a path does that leads the dimensions together, in proportion, to one side of

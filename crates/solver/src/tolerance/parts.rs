@@ -57,10 +57,10 @@ struct Cut<'c, 'a> {
 
 impl Proved {
     /// Proves that there is one figure for every choice. The equations come back where it is not proved.
-    pub fn new(mut limited: Limited, control: &Control) -> Result<Self, (Limited, Failure)> {
+    pub fn new(mut limited: Limited, control: &Control) -> Result<Self, Box<(Limited, Failure)>> {
         let Some(nominal) = Middle::at(limited.homotopy(), limited.centre().to_vec()) else {
             let all = limited.all.clone();
-            return Err((limited, Failure::Part(all)));
+            return Err(Box::new((limited, Failure::Part(all))));
         };
         let all = limited.all.clone();
         let left = most(limited.homotopy());
@@ -71,7 +71,7 @@ impl Proved {
             control,
         };
         let pieces = match cut.pieces(all.clone()) {
-            Err(failure) => return Err((limited, failure)),
+            Err(failure) => return Err(Box::new((limited, failure))),
             Ok(pieces) => pieces,
         };
         let proved = Proved {
@@ -81,7 +81,7 @@ impl Proved {
         };
         match proved.has_nominal() {
             true => Ok(proved),
-            false => Err((proved.limited, Failure::Part(all))),
+            false => Err(Box::new((proved.limited, Failure::Part(all)))),
         }
     }
 
