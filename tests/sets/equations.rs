@@ -485,3 +485,20 @@ fn all_of_them_are_found() {
 fn all_of_many_are_found() {
     all_are_found(100);
 }
+
+/// Powers may be a million times what their root is: roots that stand alone are no curve for that, whether they are found or not.
+#[test]
+fn single_roots_are_no_curve() {
+    for most in [4, 10] {
+        let factors: Vec<String> = (1..=most).map(|k| format!("(x - {k})")).collect();
+        let problem = read(&format!(
+            "equations = [\"{} = 0\"]\n[unknowns]\nx = 0.3\n",
+            factors.join("*")
+        ));
+        let found = all(&problem, &Options::default()).unwrap();
+        assert_ne!(found.status, Status::Flexible, "{:?}", found.undecided);
+        if most == 4 {
+            assert_eq!((found.status, found.count), (Status::Complete, Some(4)));
+        }
+    }
+}

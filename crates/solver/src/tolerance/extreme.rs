@@ -8,7 +8,7 @@ use super::family::Family;
 use super::parts::{Piece, Proved};
 use super::slopes;
 use crate::edit::{Limited, Part};
-use crate::interval::{Interval, point};
+use crate::interval::{Interval, hull, point};
 use crate::problem::Decimal;
 use crate::system::Quantity;
 use crate::track::Control;
@@ -54,10 +54,12 @@ impl Measure<'_> {
         let middle = place(&|i| point(family.middle.centre[i]));
         let all = slopes(homotopy, self.quantity, |i| family.near(i), self.near);
         let by_slopes = middle + family.change(&all);
-        if self.quantity.is_in_degrees() && !by_slopes.wid().is_finite() {
-            return by_slopes;
+        let directly = place(&|i| family.enclosure(i));
+        match by_slopes.wid().is_finite() {
+            true => by_slopes.intersection(directly),
+            false if self.quantity.is_in_degrees() => hull(f64::MIN, f64::MAX),
+            false => directly,
         }
-        by_slopes.intersection(place(&|i| family.enclosure(i)))
     }
 }
 
@@ -72,11 +74,16 @@ impl Proved {
     ) -> Extreme {
         /// What is reached is so near to what is possible, of the range.
         const NEAR: f64 = 0.004;
+        /// Where all dimensions of which it is not certain which way it goes may do so many times as much together as one, none is cut.
         const MANY: f64 = 8.0;
         /// So many parts are looked at.
         const MOST: usize = 60;
         let sign = if greatest { 1.0 } else { -1.0 };
-        let upper = |key: Interval| if greatest { key.sup() } else { -key.inf() };
+        let upper = |key: Interval| match if greatest { key.sup() } else { -key.inf() } {
+            // Nothing is known then.
+            end if end.is_nan() => f64::INFINITY,
+            end => end,
+        };
         let lower = |key: Interval| if greatest { key.inf() } else { -key.sup() };
         let work = self.pieces.iter().map(|piece| piece.family.work()).max();
         let mut left = (measure.work / work.unwrap_or(0).max(1)).clamp(1, MOST);

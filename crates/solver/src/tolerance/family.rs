@@ -255,7 +255,7 @@ impl Family {
         let first: Vec<f64> = sizes.map(|size| size + least).collect();
         let mut weights = first.clone();
         for _ in 0..ROUNDS {
-            let image = self.norm_of_image(&weights);
+            let image = self.norm_of_image(&self.around, &weights);
             let norm = greatest_part(&image, &weights);
             let next = first.iter().zip(&image).map(|(a, b)| a + b).collect();
             let tried = std::mem::replace(&mut weights, next);
@@ -270,24 +270,20 @@ impl Family {
         self.contraction < 1.0
     }
 
-    /// Bounds of the differences of (I − Y J) v, where those of v are bounded.
-    fn norm_of_image(&self, bounds: &[f64]) -> Vec<f64> {
+    /// Bounds of the differences of (I − Y J) v, where those of v are bounded, J the Jacobian at places whose differences, as seen from the middle,
+    /// are `around`.
+    fn norm_of_image(&self, around: &[Interval], bounds: &[f64]) -> Vec<f64> {
         let v: Vec<Interval> = bounds.iter().map(|&s| hull(-s, s)).collect();
-        self.of_slopes(&v).iter().map(|x| x.mag()).collect()
-    }
-
-    /// The differences of (I − Y J) v with the differences of v there, J the Jacobian at any of the figures.
-    fn of_slopes(&self, v: &[Interval]) -> Vec<Interval> {
         let turned = self.second_order(|e| {
             sum(self.terms[e].iter().map(|&(factor, a, b)| {
                 factor
                     * match a == b {
-                        true => point(2.0) * self.around[a] * v[a],
-                        false => self.around[a] * v[b] + self.around[b] * v[a],
+                        true => point(2.0) * around[a] * v[a],
+                        false => around[a] * v[b] + around[b] * v[a],
                     }
             }))
         });
-        self.image(&turned, v)
+        self.image(&turned, &v).iter().map(|x| x.mag()).collect()
     }
 
     /// How fast something changes with the right-hand side of an equation, over all figures, of which these are the derivatives by the unknowns.
@@ -416,8 +412,16 @@ impl Family {
         let norm = norm / (point(1.0) - point(self.contraction));
         let bounds = self.weights.iter().map(|&s| (norm * point(s)).sup());
         let mut bounds: Vec<f64> = bounds.collect();
+        // Where what is between both is.
+        let all = self.differences.iter().zip(&self.around);
+        let seen = |end: Option<usize>| {
+            end.map_or(point(0.0), |i| place[i] - point(self.middle.centre[i]))
+        };
+        let between: Vec<Interval> = all
+            .map(|(&[a, b], around)| around.convex_hull(seen(a) - seen(b)))
+            .collect();
         for _ in 0..TIMES {
-            let image = self.norm_of_image(&bounds);
+            let image = self.norm_of_image(&between, &bounds);
             let all = bounds.iter_mut().zip(image.iter().zip(&sizes));
             all.for_each(|(bound, (a, b))| *bound = bound.min((a + b).next_up()));
         }

@@ -262,19 +262,37 @@ impl Square<'_> {
     /// its kernel to another one, much nearer to that place than to the first zero. That is no proof of anything. The zero found, unknown by
     /// unknown.
     pub fn on_a_curve(&self, x: &[Interval]) -> Option<Vec<f64>> {
+        /// Unknowns up to this are left in their units.
+        const LARGE: f64 = 100.0;
         let n = self.size();
-        let linearise = |own: &[f64]| {
-            let at = self.floats(x, own);
-            let values = self.rows.iter().map(|row| row.nearly(&at));
-            let jacobian = DMatrix::from_row_slice(n, n, &self.jacobian(&at));
-            (jacobian, DVector::from_iterator(n, values))
-        };
-        let to_zero = |from| nearest_zero(from, 1e-7, &linearise);
         let middle: Vec<f64> = self.own.iter().map(|&u| x[u].mid()).collect();
         if !middle.iter().all(|x| x.abs() < 1e15) {
             return None;
         }
-        let zero = to_zero(middle)?;
+        // Unknowns, such as powers, may be much larger than others: each is told in a unit of its own, and the largest slope of a row is 1.
+        let units: Vec<f64> = middle.iter().map(|x| (x.abs() / LARGE).max(1.0)).collect();
+        let linearise = |scaled: &[f64]| {
+            let own: Vec<f64> = scaled
+                .iter()
+                .zip(&units)
+                .map(|(x, unit)| x * unit)
+                .collect();
+            let at = self.floats(x, &own);
+            let mut jacobian = DMatrix::from_row_slice(n, n, &self.jacobian(&at));
+            let mut values = DVector::from_iterator(n, self.rows.iter().map(|row| row.nearly(&at)));
+            for (mut column, unit) in jacobian.column_iter_mut().zip(&units) {
+                column *= *unit;
+            }
+            for (mut row, value) in jacobian.row_iter_mut().zip(values.iter_mut()) {
+                let over = 1.0 / row.amax().max(1.0);
+                row *= over;
+                *value *= over;
+            }
+            (jacobian, values)
+        };
+        let to_zero = |from| nearest_zero(from, 1e-7, &linearise);
+        let scaled = middle.iter().zip(&units).map(|(x, unit)| x / unit);
+        let zero = to_zero(scaled.collect())?;
         let svd = decomposed(linearise(&zero).0, [false, true]);
         let v = svd.v_t?;
         let greatest = svd.singular_values.max();
@@ -292,7 +310,7 @@ impl Square<'_> {
             };
             distance(&there, &aside) < 0.1 * ASIDE && distance(&there, &zero) > 0.5 * ASIDE
         });
-        goes_on.then_some(zero)
+        goes_on.then(|| zero.iter().zip(&units).map(|(x, unit)| x * unit).collect())
     }
 }
 
