@@ -201,7 +201,8 @@ fn end(
             ""
         };
         Some(format!(
-            "led{together} towards {to}, it turns back at {at}, proved"
+            "led{together} towards {to}, it turns back at {at}, proved{}",
+            edited.account.clause_behind()
         ))
     })
 }
