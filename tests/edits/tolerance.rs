@@ -587,3 +587,27 @@ fn a_long_strip_is_bounded() {
         }
     }
 }
+
+/// Near a figure that hardly is one Newton's method goes astray: that is said, without a panic.
+#[test]
+fn where_newtons_method_goes_astray_nothing_is_proved() {
+    let text = "name = \"t\"\ndimension = 2\n[points]\nA = [-0.1741, -0.2296]\nB = [0.2234, -3.8806]\nC = [0.0698, -2.4699]\n\
+                D = [-3.4628, 1.794]\nE = [0.5527, 2.6796]\nF = [-1.0723, -0.8131]\nG = [2.8842, 1.7571]\n[constraints]\n\
+                fixed = [\"A\"]\ndistances = [[\"A\", \"B\", 3.6726], [\"C\", \"D\", 5.5372], [\"A\", \"D\", 3.8614], [\"E\", \"F\", 3.8522]]\n\
+                y = [[\"B\", -3.8806], [\"E\", 2.6796], [\"G\", 1.7571]]\non = [[\"C\", \"A\", \"B\"]]\ndx = [[\"A\", \"C\", 0.2439]]\n\
+                angles = [[\"E\", \"D\", \"A\", 44.04]]\nperpendicular = [[\"A\", \"F\", \"D\", \"B\"], [\"A\", \"G\", \"D\", \"B\"]]\n";
+    let problem = Problem::parse(text, "astray.toml").unwrap();
+    let by = [
+        ("A-B", "-0.05791", "0.05791"),
+        ("y:B", "-0.04820", "0.04820"),
+        ("dx:A-C", "-0.01656", "-0.00497"),
+        ("C-D", "-0.09552", "0.09552"),
+        ("angles:E-D-A", "-2.42327", "2.42327"),
+        ("E-F", "-0.10809", "0.10809"),
+        ("y:E", "-0.03551", "0.05212"),
+    ];
+    let by = by.map(|(name, low, high)| (name.to_owned(), [low, high].map(|x| x.parse().unwrap())));
+    let within = limits(&problem, &by, None).unwrap();
+    let error = run(&problem, &within, &["D-B"]).unwrap_err();
+    assert!(error.contains("within the limits"), "{error}");
+}

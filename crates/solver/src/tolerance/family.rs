@@ -105,7 +105,8 @@ impl Middle {
                 *x += step;
                 size = size.max(step.abs() / (1.0 + x.abs()));
             }
-            if !size.is_finite() {
+            // The greatest of numbers does not tell of one that is none.
+            if !size.is_finite() || x.iter().any(|x| x.is_nan() || x.abs() > FAR) {
                 return None;
             }
             if size <= 8.0 * f64::EPSILON || size <= 1e-12 && size >= before {
