@@ -139,12 +139,14 @@ fn write_measured(
         measured.name,
         ends[0],
         ends[1],
-        match gap < 1.0 {
-            true => format!(
+        match gap {
+            // A range without a width is as it is said.
+            _ if ends[0] == ends[1] => String::new(),
+            gap if gap < 1.0 => format!(
                 ", and no wider by more than {:.0} % of that",
                 (point(100.0) * point(gap)).sup().ceil().max(1.0)
             ),
-            false => ", which may be much too wide".to_owned(),
+            _ => ", which may be much too wide".to_owned(),
         },
         squares_in_words(measured.root_of_squares)
     )?;

@@ -611,3 +611,29 @@ fn where_newtons_method_goes_astray_nothing_is_proved() {
     let error = run(&problem, &within, &["D-B"]).unwrap_err();
     assert!(error.contains("within the limits"), "{error}");
 }
+
+/// Two bars in line by their numbers, but for a rounding: how the area and the angle between them change has no sign there, so nothing is said of it.
+#[test]
+fn what_is_flat_has_no_first_order() {
+    let text = "name = \"flat\"\ndimension = 2\n[points]\nA = [-0.86, 0.383]\nC = [5.669, 3.6839]\nM = [5.1228, 3.4078]\n[constraints]\n\
+                fixed = [\"A\"]\ndistances = [[\"A\", \"C\", 7.316], [\"A\", \"M\", 6.704]]\n\
+                angles = [[\"x-axis\", \"A\", \"C\", 26.82], [\"x-axis\", \"A\", \"M\", 26.82]]\n";
+    let problem = Problem::parse(text, "flat.toml").unwrap();
+    let by = [("angles:x-axis-A-C", "1"), ("A-C", "0.01")];
+    let by = by.map(|(name, up)| {
+        let up: Decimal = up.parse().unwrap();
+        (name.to_owned(), [up.negative(), up])
+    });
+    let within = limits(&problem, &by, None).unwrap();
+    let found = run(&problem, &within, &["area A M C", "angle M A C", "A-M"]).unwrap();
+    let most = 0.5 * 6.704 * 7.326 * 1f64.to_radians().sin();
+    assert!(found.measured[0].bounds[1].contains(most));
+    for flat in &found.measured[..2] {
+        assert_eq!(
+            (flat.root_of_squares, flat.effects.len()),
+            (None, 0),
+            "{flat:?}"
+        );
+    }
+    assert_eq!(found.measured[2].root_of_squares, Some(0.0));
+}

@@ -73,8 +73,7 @@ impl Limited {
         for (k, one) in limits.iter().enumerate() {
             let mut ends = Vec::new();
             for value in &one.values {
-                let setting = Setting::to(one.index, value.clone());
-                ends.push(limited.whole.rights_with(&setting)?);
+                ends.push(limited.rights_with(k, value)?);
             }
             // Those that are not this dimension's stay what they are.
             let changes = |e: &usize| ends.iter().any(|end| end[*e] != limited.now[*e]);
@@ -90,17 +89,15 @@ impl Limited {
                 return Err(StartError::Unsupported(what).into());
             }
             limited.equations.push(own);
-            let [low, high] = &one.values;
-            let ends = [
-                limited.value(k, low.clone())?,
-                limited.value(k, high.clone())?,
-            ];
+            let [low, high] = [0, 1].map(|end| limited.value_of(k, &one.values[end], &ends[end]));
+            let ends = [low, high];
             let mut all = ends.clone();
             if let Target::Length(given) = Setting::now(problem, one.index).target {
-                if given.value() < low.value() {
-                    all[0] = limited.value(k, given)?;
-                } else if given.value() > high.value() {
-                    all[1] = limited.value(k, given)?;
+                let now = limited.value_of(k, &given, &limited.now);
+                if given.value() < one.values[0].value() {
+                    all[0] = now;
+                } else if given.value() > one.values[1].value() {
+                    all[1] = now;
                 }
             }
             limited.within.push(ends);
@@ -111,10 +108,23 @@ impl Limited {
 
     /// A value of the dimension of one of the limits.
     pub fn value(&mut self, k: usize, decimal: Decimal) -> Result<Rc<Value>, OpenError> {
+        let rights = self.rights_with(k, &decimal)?;
+        Ok(self.value_of(k, &decimal, &rights))
+    }
+
+    /// The same, of which all right-hand sides are known.
+    fn value_of(&self, k: usize, decimal: &Decimal, rights: &[Interval]) -> Rc<Value> {
+        let own = self.equations[k].iter().map(|&e| rights[e]);
+        Rc::new(Value {
+            decimal: decimal.clone(),
+            rights: own.collect(),
+        })
+    }
+
+    /// All right-hand sides with another value of the dimension of one of the limits.
+    fn rights_with(&mut self, k: usize, decimal: &Decimal) -> Result<Vec<Interval>, OpenError> {
         let setting = Setting::to(self.limits[k].index, decimal.clone());
-        let all = self.whole.rights_with(&setting)?;
-        let rights = self.equations[k].iter().map(|&e| all[e]).collect();
-        Ok(Rc::new(Value { decimal, rights }))
+        self.whole.rights_with(&setting)
     }
 
     /// The right-hand sides over all choices of a part.

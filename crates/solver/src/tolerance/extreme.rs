@@ -5,7 +5,7 @@
 //! already are left out.
 
 use super::family::Family;
-use super::parts::{Piece, Proved};
+use super::parts::{Piece, Proved, is_in};
 use super::slopes;
 use crate::edit::{Limited, Part};
 use crate::interval::{Interval, hull, point};
@@ -42,7 +42,25 @@ pub(super) struct Measure<'a> {
     pub work: usize,
 }
 
+/// Which way something goes with the dimensions of a part.
+struct Ways {
+    /// The part, with each dimension of which that is certain at the end where it is greatest.
+    part: Part,
+    /// Where all are at the end where it is greatest, about.
+    corner: Part,
+    /// The dimension of which it is not certain that may do most, and how much; `None`: it is of each.
+    unsure: Option<(usize, f64)>,
+    /// How much more than at the corner there may be.
+    slack: f64,
+}
+
 impl Measure<'_> {
+    /// The derivatives of the key by the unknowns, over all figures of a family and all between them and the middle.
+    fn slopes(&self, limited: &Limited, family: &Family) -> Vec<(usize, Interval)> {
+        let near = |i: usize| family.near(i);
+        slopes(limited.homotopy(), self.quantity, near, self.near)
+    }
+
     /// The key over all figures of a family; of an angle at points that may come together, everything.
     pub fn over(&self, limited: &Limited, family: &Family) -> Interval {
         let homotopy = limited.homotopy();
@@ -52,8 +70,7 @@ impl Measure<'_> {
             self.quantity.key(at, self.near)
         };
         let middle = place(&|i| point(family.middle.centre[i]));
-        let all = slopes(homotopy, self.quantity, |i| family.near(i), self.near);
-        let by_slopes = middle + family.change(&all);
+        let by_slopes = middle + family.change(&self.slopes(limited, family));
         let directly = place(&|i| family.enclosure(i));
         match by_slopes.wid().is_finite() {
             true => by_slopes.intersection(directly),
@@ -64,10 +81,11 @@ impl Measure<'_> {
 }
 
 impl Proved {
-    /// The greatest key, or the least, over all choices within limits; `range`: about how far these are apart.
+    /// The greatest key, or the least, over all choices within limits; `keys`: the key over the figures of each piece, `range`: about how far apart
+    /// the two are.
     pub(super) fn extreme(
         &mut self,
-        measure: &Measure,
+        (measure, keys): (&Measure, &[Interval]),
         greatest: bool,
         range: f64,
         control: &Control,
@@ -93,10 +111,10 @@ impl Proved {
             corner: Vec::new(),
         };
         let mut open = Vec::new();
-        for Piece { part, family } in &self.pieces {
+        for (Piece { part, family }, key) in self.pieces.iter().zip(keys) {
             let clipped = clipped(part, &self.limited.within);
             open.extend(clipped.map(|part| Open {
-                bound: upper(measure.over(&self.limited, family)),
+                bound: upper(*key),
                 family: family.clone(),
                 part,
                 is_done: false,
@@ -115,46 +133,13 @@ impl Proved {
             if top.is_done || top.bound <= best.inner || left == 0 || control.is_interrupted() {
                 break;
             }
-            let slopes = slopes(
-                limited.homotopy(),
-                measure.quantity,
-                |i| top.family.near(i),
-                measure.near,
-            );
-            // Which way it goes with each dimension: for certain, about, and how much.
-            let mut part = top.part.clone();
-            let mut corner = top.part.clone();
-            let mut unsure: Option<(usize, f64)> = None;
-            let mut is_smaller = false;
-            // How much more there may be than at the corner.
-            let mut slack = 0.0f64;
-            for k in 0..part.len() {
-                if part[k][0].decimal.value() == part[k][1].decimal.value() {
-                    continue;
-                }
-                let changes: Vec<Interval> = limited
-                    .growth(k, &part)
-                    .into_iter()
-                    .map(|(e, grown)| point(sign) * grown * top.family.speed(e, &slopes))
-                    .collect();
-                let about: f64 = changes.iter().map(|x| x.mid()).sum();
-                let end = usize::from(about > 0.0);
-                corner[k] = [top.part[k][end].clone(), top.part[k][end].clone()];
-                if changes.iter().all(|x| x.inf() >= 0.0) || changes.iter().all(|x| x.sup() <= 0.0)
-                {
-                    part[k] = corner[k].clone();
-                    is_smaller = true;
-                } else {
-                    let wrong = |x: &Interval| if end == 1 { -x.inf() } else { x.sup() };
-                    changes
-                        .iter()
-                        .for_each(|x| slack = (slack + wrong(x).max(0.0)).next_up());
-                    let size = changes.iter().map(|x| x.mag()).sum();
-                    if unsure.is_none_or(|(_, most)| size > most) {
-                        unsure = Some((k, size));
-                    }
-                }
-            }
+            let slopes = measure.slopes(limited, &top.family);
+            let Ways {
+                part,
+                corner,
+                unsure,
+                slack,
+            } = limited.ways(&top, &slopes, sign);
             left -= 1;
             if let Some((figure, _)) = limited.figure_with(&corner, &top.family) {
                 let homotopy = limited.homotopy();
@@ -179,13 +164,13 @@ impl Proved {
             if top.bound <= best.inner + NEAR * range {
                 break;
             }
-            let parts = match (is_smaller, unsure) {
-                (true, _) => vec![part],
+            let parts = match unsure {
+                _ if !is_in(&top.part, &part) => vec![part],
                 // Where many dimensions are unsure alike, halves of one are as the whole.
-                (false, Some((k, most))) if most.is_infinite() || slack < MANY * most => {
+                Some((k, most)) if most.is_infinite() || slack < MANY * most => {
                     limited.halved(&part, k).map_or(Vec::new(), Vec::from)
                 }
-                (false, _) => Vec::new(),
+                _ => Vec::new(),
             };
             let families: Option<Vec<Open>> = parts
                 .into_iter()
@@ -217,6 +202,43 @@ impl Proved {
 }
 
 impl Limited {
+    /// Which way `sign` times something goes, of which these are the derivatives by the unknowns.
+    fn ways(&self, of: &Open, slopes: &[(usize, Interval)], sign: f64) -> Ways {
+        let mut ways = Ways {
+            part: of.part.clone(),
+            corner: of.part.clone(),
+            unsure: None,
+            slack: 0.0,
+        };
+        for (k, ends) in of.part.iter().enumerate() {
+            if ends[0].decimal.value() == ends[1].decimal.value() {
+                continue;
+            }
+            let grown = self.growth(k, &of.part).into_iter();
+            let changes = grown.map(|(e, grown)| point(sign) * grown * of.family.speed(e, slopes));
+            let changes: Vec<Interval> = changes.collect();
+            let about: f64 = changes.iter().map(|x| x.mid()).sum();
+            let end = usize::from(about > 0.0);
+            ways.corner[k] = [ends[end].clone(), ends[end].clone()];
+            let is_certain =
+                changes.iter().all(|x| x.inf() >= 0.0) || changes.iter().all(|x| x.sup() <= 0.0);
+            if is_certain {
+                ways.part[k] = ways.corner[k].clone();
+                continue;
+            }
+            // What the other way gives.
+            for x in &changes {
+                let more = if end == 1 { -x.inf() } else { x.sup() };
+                ways.slack = (ways.slack + more.max(0.0)).next_up();
+            }
+            let size = changes.iter().map(|x| x.mag()).sum();
+            if ways.unsure.is_none_or(|(_, most)| size > most) {
+                ways.unsure = Some((k, size));
+            }
+        }
+        ways
+    }
+
     /// The figures of a part of a family's choices.
     fn narrower(&self, part: &Part, family: &Family) -> Option<Family> {
         let found = self.family(part, &family.middle)?;

@@ -42,13 +42,13 @@ pub(super) struct Family {
     differences: Vec<Difference>,
     /// The terms of second order of each equation.
     terms: Vec<Vec<Term>>,
-    /// Of each difference what each equation gives, by Y.
+    /// By Y, what each equation adds to each difference: a row for each difference.
     applied: Vec<Interval>,
     /// I − Y J in the middle.
     defect: Vec<Interval>,
     /// The left-hand sides in the middle.
     left: Vec<Interval>,
-    /// Their right-hand sides less these, for all choices.
+    /// The right-hand sides less the left-hand ones in the middle, for all choices.
     grown: Vec<Interval>,
     /// Of each difference as seen from the middle the part of second order, so bounded that the figure with each choice is the only one for which
     /// all differences are so.
@@ -59,8 +59,9 @@ pub(super) struct Family {
     rest: Vec<Interval>,
     /// Of each difference as seen from the middle all that it can be.
     around: Vec<Interval>,
-    /// A norm: the greatest of |difference| / weight. In it I − Y J, with J that of any two figures' middle, is less than `contraction`.
+    /// A norm: the greatest of |difference| / weight. In it I − Y J, with J that of the middle between any two figures, is `contraction` at most.
     weights: Vec<f64>,
+    /// See `weights`: less than 1.
     contraction: f64,
     /// What is asked for seldom: [`Family::more`].
     more: OnceCell<Vec<f64>>,
@@ -221,7 +222,7 @@ impl Family {
         false
     }
 
-    /// Minus what each equation says, to be multiplied by Y.
+    /// For each equation minus a part of it that is of second order.
     fn second_order(&self, of: impl Fn(usize) -> Interval) -> Vec<Interval> {
         (0..self.terms.len()).map(|e| -of(e)).collect()
     }
@@ -309,14 +310,15 @@ impl Family {
         let sizes: Vec<f64> = self.around.iter().map(most).collect();
         let terms = self.terms.iter().map(Vec::len).max().unwrap_or(0);
         let up = 1.0 + (4 * m + 4 * terms + 20) as f64 * f64::EPSILON;
+        let movers = self.movers();
         // Of each difference with each right-hand side.
         let mut bounds = vec![0.0; all * m];
         for e in 0..m {
             let column: Vec<f64> = applied.iter().skip(e).step_by(m).copied().collect();
             let norm = greatest_part(&column, &self.weights);
             let norm = point(norm) / (point(1.0) - point(self.contraction));
-            for (k, is_moved) in self.moved(e).into_iter().enumerate() {
-                if is_moved {
+            for (k, movers) in movers.iter().enumerate() {
+                if movers[e / 64] >> (e % 64) & 1 == 1 {
                     bounds[k * m + e] = (norm * point(self.weights[k])).sup();
                 }
             }
@@ -328,6 +330,9 @@ impl Family {
                     .for_each(|(sum, x)| *sum += factor * x);
             }
         };
+        // Products below all normal numbers may be rounded to 0: fewer than 2⁵² are added up, each off by less than 2⁻¹⁰⁷⁴. More than that, so that
+        // products of what is added stay normal, which are faster.
+        let above_underflow = |sum: &mut [f64]| sum.iter_mut().for_each(|x| *x += 1e-250);
         let mut image = vec![0.0; all * m];
         for _ in 0..TIMES {
             let mut turned = vec![0.0; m * m];
@@ -337,11 +342,13 @@ impl Family {
                     add(sum, factor.mag() * sizes[a], of_b);
                     add(sum, factor.mag() * sizes[b], of_a);
                 }
+                above_underflow(sum);
             }
             let mut from_middle = vec![0.0; m * m];
             for (row, sum) in defect.chunks(m).zip(from_middle.chunks_mut(m)) {
                 let rows = row.iter().zip(bounds.chunks(m));
                 rows.for_each(|(&factor, of)| add(sum, factor, of));
+                above_underflow(sum);
             }
             image.fill(0.0);
             let rows = self.differences.iter().zip(applied.chunks(m));
@@ -351,9 +358,8 @@ impl Family {
                 for &i in ends.iter().flatten() {
                     add(sum, 1.0, &from_middle[i * m..(i + 1) * m]);
                 }
-                // What was rounded to 0 is less.
-                sum.iter_mut()
-                    .for_each(|x| *x = *x * up + f64::MIN_POSITIVE);
+                sum.iter_mut().for_each(|x| *x *= up);
+                above_underflow(sum);
             }
             for ((bound, x), own) in bounds.iter_mut().zip(&image).zip(&applied) {
                 *bound = bound.min((own + x) * up);
@@ -363,37 +369,44 @@ impl Family {
         image
     }
 
-    /// Which differences a right-hand side can change: those that Y and I − Y J lead to from it.
-    fn moved(&self, e: usize) -> Vec<bool> {
+    /// For each difference which right-hand sides can change it, a bit for each: those from which Y and I − Y J lead to it.
+    fn movers(&self) -> Vec<Vec<u64>> {
         let m = self.middle.centre.len();
-        let mut moved = vec![false; self.differences.len()];
-        let mut equations = vec![false; m];
-        let mut new = vec![e];
-        while !new.is_empty() {
-            let nothing = point(0.0);
-            let mut entries = vec![false; m];
-            new.iter().for_each(|&e| equations[e] = true);
-            for (k, row) in self.applied.chunks(m).enumerate() {
-                if !moved[k] && new.iter().any(|&e| row[e] != nothing) {
-                    moved[k] = true;
+        let words = m.div_ceil(64);
+        let all_of = |row: &[Interval], sets: &[Vec<u64>]| {
+            let mut all = vec![0; words];
+            let led = row.iter().zip(sets).filter(|(x, _)| **x != point(0.0));
+            led.for_each(|(_, set)| join(&mut all, set));
+            all
+        };
+        let mut movers = vec![vec![0; words]; self.differences.len()];
+        loop {
+            let turned = self.terms.iter().enumerate().map(|(e, terms)| {
+                let mut all = vec![0; words];
+                all[e / 64] |= 1 << (e % 64);
+                for &(_, a, b) in terms {
+                    join(&mut all, &movers[a]);
+                    join(&mut all, &movers[b]);
                 }
+                all
+            });
+            let turned: Vec<Vec<u64>> = turned.collect();
+            let off = self.defect.chunks(m).map(|row| all_of(row, &movers));
+            let off: Vec<Vec<u64>> = off.collect();
+            let rows = self.differences.iter().zip(self.applied.chunks(m));
+            let next = rows.zip(&movers).map(|((ends, row), now)| {
+                let mut all = all_of(row, &turned);
+                join(&mut all, now);
+                ends.iter().flatten().for_each(|&i| join(&mut all, &off[i]));
+                all
+            });
+            let next: Vec<Vec<u64>> = next.collect();
+            // All that follows is in it.
+            if next == movers {
+                return movers;
             }
-            for (i, row) in self.defect.chunks(m).enumerate() {
-                entries[i] = row
-                    .iter()
-                    .zip(&moved)
-                    .any(|(x, is_moved)| *is_moved && *x != nothing);
-            }
-            for (k, ends) in self.differences.iter().enumerate() {
-                moved[k] |= ends.iter().flatten().any(|&i| entries[i]);
-            }
-            let is_new = |e: &usize| {
-                let mut terms = self.terms[*e].iter();
-                !equations[*e] && terms.any(|&(_, a, b)| moved[a] || moved[b])
-            };
-            new = (0..m).filter(is_new).collect();
+            movers = next;
         }
-        moved
     }
 
     /// Where the unknowns are in the one figure with these right-hand sides.
@@ -413,7 +426,7 @@ impl Family {
         let norm = norm / (point(1.0) - point(self.contraction));
         let bounds = self.weights.iter().map(|&s| (norm * point(s)).sup());
         let mut bounds: Vec<f64> = bounds.collect();
-        // Where what is between both is.
+        // Places between both, as seen from the middle of all.
         let all = self.differences.iter().zip(&self.around);
         let seen = |end: Option<usize>| {
             end.map_or(point(0.0), |i| place[i] - point(self.middle.centre[i]))
@@ -445,7 +458,7 @@ impl Family {
         rests.all(|(rest, set)| rest.subset(*set))
     }
 
-    /// How many products it takes to find all [`Family::speed`]s, about.
+    /// How many products of numbers it takes to find all [`Family::speed`]s, about.
     pub fn work(&self) -> usize {
         3 * self.applied.len() * self.middle.centre.len()
     }
@@ -513,6 +526,11 @@ fn greatest_part(all: &[f64], weights: &[f64]) -> f64 {
             part
         }
     })
+}
+
+/// Puts the bits of a set into another one.
+fn join(all: &mut [u64], set: &[u64]) {
+    all.iter_mut().zip(set).for_each(|(all, set)| *all |= set);
 }
 
 fn sums(a: &[Interval], b: &[Interval]) -> Vec<Interval> {

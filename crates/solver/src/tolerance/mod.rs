@@ -112,6 +112,8 @@ impl Measured {
 /// So many lengths that no distance gives are measured where nothing is asked for.
 const DEFAULT: usize = 12;
 
+const INTERRUPTED: &str = "the run was ended before";
+
 /// So many products of numbers, about, are made to bound all that is measured from below, and so many from above, at most: half a second.
 const WORK: usize = 200_000_000;
 
@@ -138,16 +140,16 @@ pub fn study(
         Err(failed) => *failed,
     };
     let Failure::Part(part) = failure else {
-        return Err("the run was ended before".to_owned());
+        return Err(INTERRUPTED.to_owned());
     };
     if let Some(end) = end(problem, limits, (&mut limited, &part), control) {
         return Err(format!(
-            "the figure comes to an end within the limits: {end}"
+            "the figure comes to an end before the ends of its limits: {end}"
         ));
     }
     let part = (1..=10).find_map(|k| {
         let part = scaled(problem, limits, k)?;
-        let is_proved = Proved::by_one_test(&open(&part, control).ok()?);
+        let is_proved = Proved::by_one_test(open(&part, control).ok()?, control);
         is_proved.then_some(1u32 << k)
     });
     let with = match part {
@@ -159,7 +161,7 @@ pub fn study(
     ))
 }
 
-/// Where the figure comes to an end within its limits, in words, if a path does that leads the dimensions together, in proportion, to one side of
+/// Where the figure comes to an end before the ends of its limits, in words, if a path does that leads the dimensions together, in proportion, to one side of
 /// their limits: those that were cut where one figure was not proved to where that is, or all of them down or up.
 fn end(
     problem: &Problem,
@@ -414,35 +416,34 @@ fn measure(
     control: &Control,
 ) -> Result<Measured, String> {
     let homotopy = proved.limited.homotopy();
-    let place = |p: usize| homotopy.place(p, |i| point(proved.nominal.centre[i] * homotopy.unit));
+    let given = |i: usize| proved.limited.nominal(i);
+    let unit = point(homotopy.unit);
+    let place = |p: usize| homotopy.place(p, |i| given(i) * unit);
     let middle = quantity.key(place, 0.0);
     let near = middle.mid();
-    let about = slopes(
-        homotopy,
-        quantity,
-        |i| point(proved.nominal.centre[i]),
-        near,
-    );
+    // Over all of the figure's box: what is flat but for a rounding turns back in it.
+    let about = slopes(homotopy, quantity, given, near);
     let effects = proved.effects(&about);
     let what = Measure {
         quantity,
         near,
         work,
     };
-    let all = proved.pieces.iter();
-    let all = all.map(|piece| what.over(&proved.limited, &piece.family));
-    let all = all.fold(middle, |all, key| all.convex_hull(key));
+    let pieces = proved.pieces.iter();
+    let keys = pieces.map(|piece| what.over(&proved.limited, &piece.family));
+    let keys: Vec<Interval> = keys.collect();
+    let all = keys.iter().fold(middle, |all, key| all.convex_hull(*key));
     // Of turns the nearest to the figure's was taken.
     let is_far = |end: f64| (end - near).abs() >= 0.5 * WHOLE_TURN;
     if quantity.is_in_degrees() && (all.wid().is_nan() || is_far(all.inf()) || is_far(all.sup())) {
         return Err(format!(
-            "--measure \"{}\": within the limits its points may come together, where an angle has no meaning",
+            "--measure \"{}\": within the limits it may go by half a turn or more, or its points may come together, where an angle has no meaning: give narrower limits, or leave it out",
             quantity.name
         ));
     }
     let is_nominal_within = proved.limited.is_given_in(&proved.limited.within);
     let mut extreme = |greatest: bool| {
-        let found = proved.extreme(&what, greatest, all.wid(), control);
+        let found = proved.extreme((&what, &keys), greatest, all.wid(), control);
         let nominal = if greatest { middle.inf() } else { middle.sup() };
         let is_beyond = if greatest {
             nominal > found.inner
@@ -462,7 +463,8 @@ fn measure(
                 quantity.name
             )
         };
-        found.inner.is_finite().then_some(found).ok_or_else(nothing)
+        let is_known = found.inner.is_finite() && found.outer.is_finite();
+        is_known.then_some(found).ok_or_else(nothing)
     };
     let (least, greatest) = (extreme(false)?, extreme(true)?);
     let [low, high] = [&least, &greatest].map(|one| {
@@ -490,9 +492,10 @@ fn measure(
         .iter()
         .map(|(_, slope)| slope.mag())
         .fold(0.0, f64::max);
-    let is_smooth = about
-        .iter()
-        .all(|(_, slope)| slope.wid() <= SMOOTH * steepest);
+    let is_smooth = steepest.is_finite()
+        && about
+            .iter()
+            .all(|(_, slope)| slope.wid() <= SMOOTH * steepest);
     let has_first_order = is_given || is_smooth;
     if !has_first_order {
         effects.clear();

@@ -29,9 +29,9 @@ pub(super) struct Proved {
     pub pieces: Vec<Piece>,
 }
 
-/// Why there may not be one figure for each choice.
+/// Why it is not proved that there is one figure for each choice.
 pub(super) enum Failure {
-    /// With part of the limits that was not proved.
+    /// This part of the limits was not proved.
     Part(Part),
     /// The run was ended before.
     Interrupted,
@@ -57,13 +57,27 @@ struct Cut<'c, 'a> {
 
 impl Proved {
     /// Proves that there is one figure for every choice. The equations come back where it is not proved.
-    pub fn new(mut limited: Limited, control: &Control) -> Result<Self, Box<(Limited, Failure)>> {
+    pub fn new(limited: Limited, control: &Control) -> Result<Self, Box<(Limited, Failure)>> {
+        let tries = most(limited.homotopy());
+        Self::by(limited, tries, control)
+    }
+
+    /// Whether there is one figure for every choice, by one test.
+    pub fn by_one_test(limited: Limited, control: &Control) -> bool {
+        Self::by(limited, 1, control).is_ok()
+    }
+
+    /// The same with so many parts at most.
+    fn by(
+        mut limited: Limited,
+        left: usize,
+        control: &Control,
+    ) -> Result<Self, Box<(Limited, Failure)>> {
         let Some(nominal) = Middle::at(limited.homotopy(), limited.centre().to_vec()) else {
             let all = limited.all.clone();
             return Err(Box::new((limited, Failure::Part(all))));
         };
         let all = limited.all.clone();
-        let left = most(limited.homotopy());
         let mut cut = Cut {
             limited: &mut limited,
             nominal: &nominal,
@@ -112,15 +126,6 @@ impl Proved {
             grown.map(|(e, x)| weight(e) * x.mid()).sum()
         };
         (0..self.limited.within.len()).map(of).collect()
-    }
-
-    /// Whether there is one figure for every choice, by one test.
-    pub fn by_one_test(limited: &Limited) -> bool {
-        let Some(nominal) = Middle::at(limited.homotopy(), limited.centre().to_vec()) else {
-            return false;
-        };
-        let family = limited.family(&limited.all, &nominal);
-        family.is_some_and(|family| limited.has_given(&family))
     }
 
     /// Whether the figure with the dimensions as they are given is one of these.
@@ -174,7 +179,7 @@ impl Cut<'_, '_> {
 }
 
 /// Whether all choices of one part are those of another.
-fn is_in(part: &Part, other: &Part) -> bool {
+pub(super) fn is_in(part: &Part, other: &Part) -> bool {
     part.iter().zip(other).all(|([low, high], [least, most])| {
         least.decimal.value() <= low.decimal.value() && high.decimal.value() <= most.decimal.value()
     })

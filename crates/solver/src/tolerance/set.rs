@@ -22,8 +22,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-use super::parts::Proved;
-use super::{Study, checked, studied};
+use super::parts::{Failure, Proved};
+use super::{INTERRUPTED, Study, checked, studied};
 use crate::blocks::Account;
 use crate::complete::{self, Part, ranged};
 use crate::constraint::{Symmetry, symmetry};
@@ -95,7 +95,7 @@ pub fn study_all(
         let bands = limited.put(&points);
         let mut study = || {
             if control.is_interrupted() {
-                return Err("the run was ended before".to_owned());
+                return Err(INTERRUPTED.to_owned());
             }
             let places = problem.points.iter().zip(&bands);
             // What stands is where it is drawn.
@@ -115,7 +115,10 @@ pub fn study_all(
             if !(0..homotopy.equations).all(|i| own.nominal(i).subset(x[i])) {
                 return Err(ELSEWHERE.to_owned());
             }
-            let proved = Proved::new(own, control).map_err(|_| NOT_BOUNDED)?;
+            let proved = Proved::new(own, control).map_err(|failed| match failed.1 {
+                Failure::Interrupted => INTERRUPTED,
+                Failure::Part(_) => NOT_BOUNDED,
+            })?;
             studied(&drawn, limits, proved, &quantities, control)
         };
         let study = study();
