@@ -199,9 +199,8 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
         .filter(|_| results.are_read())
         .map(|skeleton| {
             let solutions = result.solutions.iter();
-            let middles = solutions.map(|s| s.points.iter().map(|p| p.map(|x| x.mid())).collect());
-            let middles: Vec<Vec<[f64; 3]>> = middles.collect();
-            let conformers = skeleton.conformers(&middles, either);
+            let figures: Vec<_> = solutions.map(|solution| &solution.points[..]).collect();
+            let conformers = skeleton.conformers(&figures, either);
             (skeleton, conformers)
         });
     let many = arguments

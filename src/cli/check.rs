@@ -6,7 +6,7 @@ use krawl::blocks::{
     Account, Census, Finding, MOST_POINTS, Surplus, Why, clusters, pinned, surplus,
 };
 use krawl::edit::{Decomposition, Standing, TooMany};
-use krawl::import::{self, Format, Listed};
+use krawl::import::{self, Format, Imported, Listed, Skeleton};
 use krawl::plan::Plan;
 use krawl::problem::{DEPENDS, Object, Problem, Shape, Target, counted};
 use krawl::remarks::{in_words, moves, remarks};
@@ -66,6 +66,10 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
         }
     };
     let mut text = describe(&problem, None);
+    if is_molecule {
+        let (imported, _) = input::import(&arguments.file, &arguments.which)?;
+        text += &stereocentres(&imported);
+    }
     text += &remarks_in_words(&problem);
     let census = match problem.is_distances_only() {
         true => Census::default(),
@@ -398,6 +402,20 @@ fn in_rows(rows: &[(&str, String)]) -> String {
     lines
         .map(|(label, value)| format!("  {label:<20}{value}\n"))
         .collect()
+}
+
+/// The stereocentres of a molecule, as lines of text.
+fn stereocentres(imported: &Imported) -> String {
+    let letters = imported.skeleton.iter().flat_map(Skeleton::letters);
+    let rows = letters.map(|(atom, letter)| {
+        let name = &imported.problem.points[atom].name;
+        let words = match letter {
+            Ok(letter) => format!("{name}, {letter} in the file"),
+            Err(why) => format!("{name}, neither R nor S, as {why}"),
+        };
+        ("stereocentre", words)
+    });
+    in_rows(&rows.collect::<Vec<_>>())
 }
 
 /// What a problem consists of, as it was understood.

@@ -37,7 +37,7 @@ use crate::complete::Surplus;
 use crate::edit::Setting;
 use crate::problem::{Decimal, Problem};
 pub(crate) use molecule::ELEMENTS;
-pub use molecule::{Conformer, Skeleton};
+pub use molecule::{Conformer, Letter, Skeleton};
 
 /// The largest file that is read, in bytes.
 pub const MAX_SIZE: usize = 256 << 20;

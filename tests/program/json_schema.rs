@@ -144,6 +144,16 @@ fn results_of_other_verbs_meet_their_schemas() {
         (
             "complete",
             "complete",
+            &[
+                "all",
+                "tests/data/stereocentres.sdf",
+                "--sketch",
+                "(R)-bromochlorofluoromethane",
+            ],
+        ),
+        (
+            "complete",
+            "complete",
             &["all", "problems/constraints/pentahedron.toml"],
         ),
         (

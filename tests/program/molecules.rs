@@ -24,8 +24,12 @@ const BUTANOL: &str = "5\nbutanol\nC 1.98 0.62 0.14\nC 0.60 0.03 0.35\nC -0.50 0
                        O 0.55 -1.25 -0.28\n";
 
 fn all(text: &str, more: &[&str]) -> (Value, String) {
+    all_of("m.xyz", text, more)
+}
+
+fn all_of(name: &str, text: &str, more: &[&str]) -> (Value, String) {
     let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("m.xyz").to_string_lossy().into_owned();
+    let file = folder.path().join(name).to_string_lossy().into_owned();
     let json = folder.path().join("m.json").to_string_lossy().into_owned();
     std::fs::write(&file, text).unwrap();
     let arguments = [&["all", &file, "--json", &json], more].concat();
@@ -185,5 +189,180 @@ fn hydrogens_are_left_out_and_put_back() {
     assert!(
         code == Some(2) && error.contains("--heavy is for molecules"),
         "{error}"
+    );
+}
+
+/// Molecules with the letters of their stereocentres on the third line. Their names are those of the literature.
+const NAMED: &str = include_str!("../data/stereocentres.sdf");
+
+/// The molecules of that file: the name, the lines, and the letters that are known.
+fn named() -> Vec<(String, Vec<String>, Vec<(usize, char)>)> {
+    let known = |text: &str| -> (usize, char) {
+        let (atom, letter) = text.split_once(' ').unwrap();
+        let number = atom.trim_start_matches(char::is_alphabetic);
+        (
+            number.parse::<usize>().unwrap() - 1,
+            letter.parse().unwrap(),
+        )
+    };
+    let all = NAMED.split("$$$$\n").filter(|text| !text.is_empty());
+    let read = all.map(|text| {
+        let lines: Vec<String> = text.lines().map(str::to_owned).collect();
+        let letters = lines[2].split(", ").map(known).collect();
+        (lines[0].clone(), lines, letters)
+    });
+    read.collect()
+}
+
+/// The letters that krawl has for a molecule as it is drawn, or why it has none.
+fn letters(lines: &[String]) -> Vec<(usize, Result<char, &'static str>)> {
+    let text = lines.join("\n");
+    let read = krawl::import::read("m.mol", text.as_bytes(), None).unwrap();
+    read.skeleton.unwrap().letters()
+}
+
+fn known(letters: &[(usize, char)]) -> Vec<(usize, Result<char, &'static str>)> {
+    letters
+        .iter()
+        .map(|&(atom, letter)| (atom, Ok(letter)))
+        .collect()
+}
+
+/// How many atoms and bonds there are.
+fn counts(lines: &[String]) -> [usize; 2] {
+    [0, 3].map(|from| lines[3][from..from + 3].trim().parse().unwrap())
+}
+
+/// The molecule with numbers for its atoms that `new` gives for the old ones, from 0 on.
+fn renumbered(lines: &[String], new: impl Fn(usize) -> usize) -> Vec<String> {
+    let [atoms, bonds] = counts(lines);
+    let mut out = lines.to_vec();
+    for a in 0..atoms {
+        out[4 + new(a)].clone_from(&lines[4 + a]);
+    }
+    let number = |text: &str| new(text.trim().parse::<usize>().unwrap() - 1) + 1;
+    for line in &mut out[4 + atoms..4 + atoms + bonds] {
+        let [a, b] = [&line[..3], &line[3..6]].map(number);
+        *line = format!("{a:3}{b:3}{}", &line[6..]);
+    }
+    for line in out.iter_mut().filter(|line| line.starts_with("M  ISO")) {
+        *line = format!("{}{:4}{}", &line[..9], number(&line[9..13]), &line[13..]);
+    }
+    out
+}
+
+#[test]
+fn stereocentres_have_the_letters_that_are_known() {
+    let all = named();
+    assert_eq!(all.len(), 15);
+    for (name, lines, wanted) in &all {
+        assert_eq!(letters(lines), known(wanted), "{name}");
+        let [atoms, _] = counts(lines);
+        let mut mirrored = lines.clone();
+        for line in &mut mirrored[4..4 + atoms] {
+            let z: f64 = line[20..30].trim().parse().unwrap();
+            line.replace_range(20..30, &format!("{:10.4}", -z));
+        }
+        let other = |&(atom, letter): &(usize, char)| (atom, if letter == 'R' { 'S' } else { 'R' });
+        let others: Vec<(usize, char)> = wanted.iter().map(other).collect();
+        assert_eq!(letters(&mirrored), known(&others), "{name}, mirrored");
+        // Numbers of atoms play no part: all turned round by some, and backwards.
+        for shift in [1, 3, atoms / 2] {
+            let new = |a: usize| atoms - 1 - (a + shift) % atoms;
+            let mut moved: Vec<(usize, char)> = wanted.iter().map(|&(a, l)| (new(a), l)).collect();
+            moved.sort_unstable();
+            assert_eq!(
+                letters(&renumbered(lines, new)),
+                known(&moved),
+                "{name}, {shift}"
+            );
+        }
+    }
+}
+
+/// What a letter rests on is in the file: aromatic bonds of a benzene ring leave nothing open, those of a pyridine ring do; and without
+/// bond orders there is no letter, which is said.
+#[test]
+fn no_letter_is_a_guess() {
+    let all = named();
+    let of = |name: &str| all.iter().find(|(own, ..)| own == name).unwrap();
+    let (_, sulfoxide, wanted) = of("(R)-methyl phenyl sulfoxide");
+    let with_orders = |lines: &[String], ring: &[[usize; 2]], order: usize| -> Vec<String> {
+        let [atoms, bonds] = counts(lines);
+        let mut out = lines.to_vec();
+        for line in &mut out[4 + atoms..4 + atoms + bonds] {
+            let ends = [&line[..3], &line[3..6]].map(|text| text.trim().parse().unwrap());
+            if ring.is_empty() || ring.contains(&ends) {
+                *line = format!("{:3}{:3}{order:3}  0", ends[0], ends[1]);
+            }
+        }
+        out
+    };
+    let ring = [[4, 5], [5, 6], [6, 7], [7, 8], [8, 9], [9, 4]];
+    let aromatic = with_orders(sulfoxide, &ring, 4);
+    assert_ne!(&aromatic, sulfoxide);
+    assert_eq!(letters(&aromatic), known(wanted));
+    // Which the bonds are is not said: alanine's neighbours differ by their own and the next elements alone.
+    let (_, alanine, wanted) = of("L-alanine");
+    let unknown = letters(&with_orders(alanine, &[], 8));
+    let [(1, Err(why))] = unknown[..] else {
+        panic!("{unknown:?}")
+    };
+    assert!(why.contains("double bonds the file leaves open"), "{why}");
+    // A charge at the end of what decides is none of its business.
+    let mut charged = alanine.clone();
+    let end = charged.iter().position(|line| line == "M  END").unwrap();
+    charged.insert(end, "M  CHG  2   5  -1   6   1".to_owned());
+    assert_eq!(letters(&charged), known(wanted));
+    charged[end] = "M  CHG  1  99   1".to_owned();
+    let read = krawl::import::read("m.mol", charged.join("\n").as_bytes(), None);
+    let error = read.unwrap_err().to_string();
+    assert!(error.contains(&format!("line {}", end + 1)), "{error}");
+    // Without bonds in the file.
+    let (value, table) = all_of("m.xyz", &methane(1.0), &[]);
+    let one = &value["conformers"][0]["stereocentres"][0];
+    assert_eq!(one["atom"], "C1");
+    assert!(one["letter"].is_null(), "{one}");
+    let why = "Neither R nor S is said of C1, as the file has no bond orders.";
+    assert!(table.contains(why), "{table}");
+}
+
+/// Of each figure the letter is its own, whatever the file's is.
+#[test]
+fn figures_have_letters() {
+    let all = named();
+    let of = |name: &str| all.iter().find(|(own, ..)| own == name).unwrap();
+    let (_, lines, _) = of("(R)-bromochlorofluoromethane");
+    let text = lines.join("\n");
+    let letter = |value: &Value, k: usize| value["conformers"][k]["stereocentres"][0].clone();
+    let r = serde_json::json!({"atom": "C1", "letter": "R"});
+    let (value, table) = all_of("m.mol", &text, &[]);
+    assert_eq!(letter(&value, 0), r);
+    assert!(
+        table.contains("R, S") && table.contains("  C1 R"),
+        "{table}"
+    );
+    // Each stands for its mirror image, and is shown as the one that is nearer to the file.
+    let (value, _) = all_of("m.mol", &text, &["--any-signs"]);
+    assert_eq!(letter(&value, 0), r);
+    let (_, lines, _) = of("D-glyceraldehyde without hydrogens");
+    let (value, table) = all_of("m.mol", &lines.join("\n"), &[]);
+    let figures = value["conformers"].as_array().unwrap();
+    assert!(!figures.is_empty());
+    for k in 0..figures.len() {
+        assert_eq!(
+            letter(&value, k),
+            serde_json::json!({"atom": "C2", "letter": "R"}),
+            "{table}"
+        );
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("m.mol").to_string_lossy().into_owned();
+    std::fs::write(&file, lines.join("\n")).unwrap();
+    let (code, text, _) = krawl(&["check", &file]);
+    assert_eq!(code, Some(0), "{text}");
+    assert!(
+        text.contains("stereocentre        C2, R in the file"),
+        "{text}"
     );
 }

@@ -9,27 +9,31 @@
 //! Where the molecule has straight or flat parts (nitriles, alkynes, aromatic rings), distances do not hold it: bonds that go
 //! straight on are `collinear` then, and atoms in one plane `coplanar` ([`hold`]).
 //!
-//! Figures keep the side of stereocentres ([`chirality`]).
+//! Figures keep the side of stereocentres ([`chirality`]), which are named R and S where the file has orders of bonds ([`cip`]).
 //!
 //! Files in XYZ have no bonds: atoms are taken for bonded that are not further apart than their covalent radii (Cordero
 //! and others, Dalton Transactions 2008) and 0.45 Å, as Open Babel does.
 
 mod chirality;
+mod cip;
 mod hold;
 mod hydrogens;
 mod pdb;
 mod skeleton;
+mod structure;
 
 use super::{Figure, Format, Imported, Listed, Places as AllPlaces};
 use crate::complete::{Spare, Surplus};
 use crate::interval::vector::{length, minus};
 use crate::problem::{Decimal, Distance, Orientation, Problem, Target, counted};
-use chirality::stereocentres;
+pub use chirality::Letter;
+use chirality::{Stereocentre, stereocentres};
 use hold::{Held, hold};
 use hydrogens::Hydrogens;
 pub use skeleton::{Conformer, Skeleton};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
+use structure::{Detail, Structure};
 
 /// More atoms are not read: the choice of distances takes time like the fourth power of their number.
 const MOST_ATOMS: usize = 150;
@@ -52,6 +56,9 @@ struct Molecule<'a> {
     name: String,
     atoms: Vec<(&'a str, [&'a str; 3], usize)>,
     bonds: Option<Vec<[usize; 2]>>,
+    /// The orders of these ([`Structure::near`]), and details of atoms; none where there are no such in the format.
+    orders: Vec<u8>,
+    details: Vec<Detail>,
     /// See [`Imported::notes`].
     notes: Vec<String>,
 }
@@ -121,6 +128,8 @@ fn xyz<'a>(lines: &[&'a str]) -> Result<Vec<Molecule<'a>>, String> {
             name: if name.is_empty() { "molecule" } else { name }.to_owned(),
             atoms,
             bonds: None,
+            orders: Vec::new(),
+            details: Vec::new(),
             notes: Vec::new(),
         });
     }
@@ -141,13 +150,16 @@ fn molfiles<'a>(lines: &[&'a str]) -> Result<Vec<Molecule<'a>>, String> {
         }
         let counts = lines[begin..end].get(3).copied().unwrap_or("");
         // In columns of three characters, or with blanks between where that is not so.
-        let pair = |text: &str| -> Option<[usize; 2]> {
-            let column = |from: usize| text.get(from..from + 3)?.trim().parse().ok();
+        let numbers = |text: &str| -> Option<([usize; 2], Option<usize>)> {
+            let column = |from: usize| {
+                let to = text.len().min(from + 3);
+                text.get(from..to)?.trim().parse().ok()
+            };
             let mut fields = text.split_whitespace();
             let mut field = || fields.next()?.parse().ok();
             match (column(0), column(3)) {
-                (Some(a), Some(b)) => Some([a, b]),
-                _ => Some([field()?, field()?]),
+                (Some(a), Some(b)) => Some(([a, b], column(6))),
+                _ => Some(([field()?, field()?], field())),
             }
         };
         let here = format!("line {}", begin + 4);
@@ -156,7 +168,7 @@ fn molfiles<'a>(lines: &[&'a str]) -> Result<Vec<Molecule<'a>>, String> {
                 "{here}: version V3000 of molfiles is not read, V2000 is"
             ));
         }
-        let Some([atoms, bonds]) = pair(counts) else {
+        let Some(([atoms, bonds], _)) = numbers(counts) else {
             return Err(format!("{here}: there are no numbers of atoms and bonds"));
         };
         let line = |k: usize| {
@@ -169,6 +181,8 @@ fn molfiles<'a>(lines: &[&'a str]) -> Result<Vec<Molecule<'a>>, String> {
             name: lines[begin].trim().to_owned(),
             atoms: Vec::new(),
             bonds: Some(Vec::new()),
+            orders: Vec::new(),
+            details: Vec::new(),
             notes: Vec::new(),
         };
         if out.name.is_empty() {
@@ -177,15 +191,21 @@ fn molfiles<'a>(lines: &[&'a str]) -> Result<Vec<Molecule<'a>>, String> {
         for k in 0..atoms {
             let (at, text) = line(k);
             match in_columns(text).or_else(|| with_blanks(text)) {
-                Some((element, coordinates)) => out.atoms.push((element, coordinates, at)),
+                Some((element, coordinates)) => {
+                    out.atoms.push((element, coordinates, at));
+                    out.details.push(detail(text));
+                }
                 None => return Err(no_atom(at)),
             }
         }
         for k in 0..bonds {
             let (at, text) = line(atoms + k);
-            match pair(text) {
-                Some([a, b]) if (1..=atoms).contains(&a) && (1..=atoms).contains(&b) && a != b => {
+            let is_one = |k: usize| (1..=atoms).contains(&k);
+            match numbers(text) {
+                Some(([a, b], order)) if is_one(a) && is_one(b) && a != b => {
                     out.bonds.get_or_insert_default().push([a - 1, b - 1]);
+                    let order = order.and_then(|order| u8::try_from(order).ok());
+                    out.orders.push(order.unwrap_or(0));
                 }
                 _ => {
                     return Err(format!(
@@ -195,10 +215,70 @@ fn molfiles<'a>(lines: &[&'a str]) -> Result<Vec<Molecule<'a>>, String> {
                 }
             }
         }
+        let properties = begin + 4 + atoms + bonds;
+        properties_into(&mut out, &lines[..end], properties)?;
         all.push(out);
         begin = end + 1;
     }
     Ok(all)
+}
+
+/// What the line of an atom in a molfile has behind its element.
+fn detail(line: &str) -> Detail {
+    let (from, before) = if in_columns(line).is_some() {
+        (31, 1)
+    } else {
+        (0, 4)
+    };
+    let fields = line.get(from..).unwrap_or("").split_whitespace();
+    let numbers: Vec<i32> = fields
+        .skip(before)
+        .map_while(|field| field.parse().ok())
+        .collect();
+    let number = |k: usize| numbers.get(k).copied().unwrap_or(0);
+    Detail {
+        isotope: number(0),
+        is_odd: number(1) != 0 || number(5) != 0,
+    }
+}
+
+/// Takes over what the lines of properties, from one on, say of isotopes, charges and unpaired electrons.
+fn properties_into(out: &mut Molecule, lines: &[&str], from: usize) -> Result<(), String> {
+    let all = lines.iter().enumerate().skip(from);
+    let all = all.take_while(|(_, line)| !line.starts_with("M  END"));
+    let all = all.filter(|(_, line)| {
+        ["M  ISO", "M  CHG", "M  RAD"]
+            .iter()
+            .any(|kind| line.starts_with(kind))
+    });
+    let mut are_replaced = false;
+    for (at, line) in all {
+        let is_isotope = line.starts_with("M  ISO");
+        if is_isotope && !are_replaced {
+            are_replaced = true;
+            out.details.iter_mut().for_each(|detail| detail.isotope = 0);
+        }
+        // Behind how many there are: an atom and a number, and so on.
+        let fields = line.get(9..).unwrap_or("").split_whitespace();
+        let numbers: Option<Vec<i32>> = fields.map(|field| field.parse().ok()).collect();
+        for pair in numbers.unwrap_or_else(|| vec![0]).chunks(2) {
+            let atom = usize::try_from(pair[0])
+                .ok()
+                .and_then(|atom| atom.checked_sub(1));
+            let (Some(atom), Some(&number)) = (atom.filter(|&a| a < out.atoms.len()), pair.get(1))
+            else {
+                return Err(format!(
+                    "line {}: an atom, or a number for it, is missing",
+                    at + 1
+                ));
+            };
+            match is_isotope {
+                true => out.details[atom].isotope = isotope(element(out.atoms[atom].0), number),
+                false => out.details[atom].is_odd |= number != 0,
+            }
+        }
+    }
+    Ok(())
 }
 
 /// An atom's element and coordinates in the columns of a molfile.
@@ -255,6 +335,23 @@ const RADII: [f64; 54] = [
     1.19, 1.20, 1.20, 1.16, 2.20, 1.95, 1.90, 1.75, 1.64, 1.54, 1.47, 1.46, 1.42, 1.39, 1.45, 1.44,
     1.42, 1.39, 1.39, 1.38, 1.39, 1.40,
 ];
+
+/// Standard atomic weights of the same (IUPAC 2021, abridged).
+const WEIGHTS: [f64; 54] = [
+    1.008, 4.0026, 6.94, 9.0122, 10.81, 12.011, 14.007, 15.999, 18.998, 20.180, 22.990, 24.305,
+    26.982, 28.085, 30.974, 32.06, 35.45, 39.95, 39.098, 40.078, 44.956, 47.867, 50.942, 51.996,
+    54.938, 55.845, 58.933, 58.693, 63.546, 65.38, 69.723, 72.630, 74.922, 78.971, 79.904, 83.798,
+    85.468, 87.62, 88.906, 91.224, 92.906, 95.95, 97.0, 101.07, 102.91, 106.42, 107.87, 112.41,
+    114.82, 118.71, 121.76, 127.60, 126.90, 131.29,
+];
+
+/// [`Detail::isotope`] of a mass number; 0 as well of an element of which no weight is known.
+fn isotope(symbol: &str, mass: i32) -> i32 {
+    let weight = known()
+        .zip(WEIGHTS)
+        .find(|((known, _), _)| *known == symbol);
+    weight.map_or(0, |(_, weight)| (f64::from(mass) - weight).round() as i32)
+}
 
 /// The elements whose radii are known, with these.
 fn known() -> impl Iterator<Item = (&'static str, f64)> {
@@ -345,8 +442,14 @@ pub fn read(
     }
     let symbols: Vec<&str> = molecule.atoms.iter().map(|atom| atom.0).collect();
     // Hydrogens that are left out tell sides as well.
-    let signed = stereocentres(&symbols, &places, &bonds, stays);
+    let structure = Structure::new(&symbols, &bonds, &molecule.orders, &molecule.details);
+    let signed = stereocentres(&structure, &places, stays);
     let new = |a: usize| kept.partition_point(|&b| b < a);
+    let number = |a: usize| stays(&a).then(|| new(a));
+    let centres = signed
+        .iter()
+        .map(|(points, _)| Stereocentre::new(&structure, points[0], number));
+    let centres = centres.collect();
     let orientations = signed.into_iter().map(|(points, is_positive)| Orientation {
         points: points.map(new).to_vec(),
         is_positive,
@@ -426,7 +529,7 @@ pub fn read(
         tied: Vec::new(),
         problem,
         surplus,
-        skeleton: Some(Skeleton::new(&symbols, &places, &bonds)),
+        skeleton: Some(Skeleton::new(&symbols, &places, &bonds, centres)),
         places: AllPlaces::Molecule(Places {
             format,
             lines: atoms.iter().map(|atom| atom.2).collect(),

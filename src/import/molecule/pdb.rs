@@ -187,6 +187,8 @@ impl<'a> Chain<'a> {
             }
             .to_owned(),
             bonds: (bonded.len() == self.atoms.len()).then_some(own),
+            orders: Vec::new(),
+            details: Vec::new(),
             atoms: self
                 .atoms
                 .iter()

@@ -1,7 +1,9 @@
 //! What a chemist wants to see of a molecule's figures: torsions, contacts, and how far they are from the file's.
 
+use super::chirality::{Letter, Stereocentre};
 use super::element;
-use crate::interval::vector::{cross, dot, length, minus};
+use crate::interval::point;
+use crate::interval::vector::{Vector, cross, dot, length, minus};
 use crate::nalgebra::Matrix3;
 use crate::order::InOrder;
 use std::collections::{BTreeSet, VecDeque};
@@ -15,9 +17,10 @@ pub struct Skeleton {
     pub(super) places: Vec<[f64; 3]>,
     /// Indices of atoms.
     pub(super) bonds: Vec<[usize; 2]>,
+    stereocentres: Vec<Stereocentre>,
 }
 
-/// A figure of a molecule. All numbers are floats, computed from the points that it is given by.
+/// A figure of a molecule. All numbers are floats, computed from the middles of the boxes that it is given by.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Conformer {
     /// The root of the mean square of how far its atoms are from those of the file where it lies on these as well as it can, in ångström.
@@ -29,6 +32,8 @@ pub struct Conformer {
     /// Of atoms that are three bonds apart or more those that are nearest, measured by their van der Waals radii, how far they are
     /// apart, and by how much that is more than the sum of these; `None`: there are no such atoms.
     pub contact: Option<([usize; 2], f64, f64)>,
+    /// The stereocentres, each with R or S, by the sign that is certain of the boxes, or why it has no letter, in words that follow *as*.
+    pub letters: Vec<(usize, Letter)>,
 }
 
 /// Bonds go straight on where the sine of the angle is less than this.
@@ -53,13 +58,30 @@ const VAN_DER_WAALS: [(&str, f64); 15] = [
 ];
 
 impl Skeleton {
-    pub(super) fn new(symbols: &[&str], places: &[[f64; 3]], bonds: &[[usize; 2]]) -> Self {
+    pub(super) fn new(
+        symbols: &[&str],
+        places: &[[f64; 3]],
+        bonds: &[[usize; 2]],
+        stereocentres: Vec<Stereocentre>,
+    ) -> Self {
         let elements = symbols.iter().map(|symbol| element(symbol).to_owned());
         Skeleton {
             elements: elements.collect(),
             places: places.to_vec(),
             bonds: bonds.to_vec(),
+            stereocentres,
         }
+    }
+
+    /// The stereocentres with their letters as the file has them, as [`Conformer::letters`] are.
+    pub fn letters(&self) -> Vec<(usize, Letter)> {
+        let drawn: Vec<Vector> = self.places.iter().map(|place| place.map(point)).collect();
+        self.letters_of(&drawn, false)
+    }
+
+    fn letters_of(&self, figure: &[Vector], is_mirrored: bool) -> Vec<(usize, Letter)> {
+        let all = self.stereocentres.iter();
+        all.map(|one| one.letter(figure, is_mirrored)).collect()
     }
 
     /// Four atoms in a row for each bond about which something turns: of a bond in a ring those of the smallest ring, otherwise heavy
@@ -94,8 +116,8 @@ impl Skeleton {
         self.bonds.iter().filter_map(of).collect()
     }
 
-    /// Figures as a chemist wants to see them; with `either` each stands for its mirror image as well.
-    pub fn conformers(&self, figures: &[Vec<[f64; 3]>], either: bool) -> Vec<Conformer> {
+    /// Figures, given by boxes of all atoms, as a chemist wants to see them; with `either` each stands for its mirror image as well.
+    pub fn conformers(&self, figures: &[&[Vector]], either: bool) -> Vec<Conformer> {
         let n = self.places.len();
         let (torsions, near) = (self.torsions(), neighbours(n, &self.bonds));
         let radius = |a: usize| {
@@ -108,8 +130,9 @@ impl Skeleton {
         let pairs: Vec<([usize; 2], f64)> = pairs
             .filter_map(|[a, b]| Some(([a, b], radius(a)?.1 + radius(b)?.1)))
             .collect();
-        let seen = figures.iter().map(|figure| {
-            let (rmsd, is_mirrored) = self.rmsd(figure, either);
+        let seen = figures.iter().map(|boxes| {
+            let figure: Vec<[f64; 3]> = boxes.iter().map(|p| p.map(|x| x.mid())).collect();
+            let (rmsd, is_mirrored) = self.rmsd(&figure, either);
             let sign = if is_mirrored { -1.0 } else { 1.0 };
             let torsion = |four: &[usize; 4]| sign * torsion(four.map(|a| figure[a]));
             let contacts = pairs.iter().map(|&([a, b], radii)| {
@@ -121,6 +144,7 @@ impl Skeleton {
                 is_mirrored,
                 torsions: torsions.iter().map(torsion).collect(),
                 contact: contacts.min_by(|a, b| a.2.total_cmp(&b.2)),
+                letters: self.letters_of(boxes, is_mirrored),
             }
         });
         seen.collect()

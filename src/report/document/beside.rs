@@ -63,6 +63,22 @@ keys! {
         contact: Option<Contact> = found.contact.map(|contact| Contact::new(problem, contact)),
         /// The torsions about bonds.
         torsions: Vec<Torsion> = all(torsions.iter().zip(&found.torsions), |of| Torsion::new(problem, of)),
+    } or nothing {
+        /// The stereocentres.
+        stereocentres: Vec<Stereocentre> = all(&found.letters, |of| Stereocentre::new(problem, of)),
+    }
+}
+
+keys! {
+    /// An atom that differs from its mirror image, with the one or the other key.
+    Stereocentre(problem: &Problem, found: &(usize, import::Letter)) {
+        /// Its name.
+        atom: String = problem.points[found.0].name.clone(),
+    } or nothing {
+        /// R or S.
+        letter: Option<char> = found.1.ok(),
+        /// Why it has no letter, in words that follow *as*.
+        no_letter: Option<String> = found.1.err().map(str::to_owned),
     }
 }
 
