@@ -6,7 +6,8 @@ use super::edit::{behind, edit_in_words, limit_in_words, short, write_moved};
 use super::measured::{Measures, Placed};
 use crate::edit::{Edited, End, Ending, Moved, Range, Sweep};
 use crate::interval::{Bound, Interval};
-use crate::problem::Problem;
+use crate::problem::{Problem, list};
+use crate::remarks::Reach;
 
 /// The ranges of dimensions as a table.
 pub fn ranges_to_table(problem: &Problem, ranges: &[Range], moved: Moved) -> String {
@@ -75,8 +76,38 @@ pub fn ranges_to_table(problem: &Problem, ranges: &[Range], moved: Moved) -> Str
                 }
             }
         }
+        // Where nothing is held, and a limit is proved, no more is to be said.
+        let is_open = |end: &End| !range.account.held.is_empty() || !matches!(end, End::Limit(..));
+        let ends = [&range.low, &range.high].into_iter().zip(&range.reach);
+        for (end, reach) in ends {
+            if let Some(reach) = reach.as_ref().filter(|_| is_open(end)) {
+                out += &reach_in_words(problem, range.index, reach);
+            }
+        }
     }
     out
+}
+
+/// What no figure goes beyond, however it moves.
+fn reach_in_words(problem: &Problem, index: usize, reach: &Reach) -> String {
+    let name = problem.dimension_name(index);
+    let point = |p: usize| problem.points[p].name.as_str();
+    let pairs = reach.way.windows(2);
+    let mut pairs: Vec<String> = pairs
+        .map(|p| format!("{}-{}", point(p[0]), point(p[1])))
+        .collect();
+    let longest = reach.longest.map(|place| pairs.remove(place));
+    let others = list(&pairs, 8);
+    let [is, are] = match pairs.len() {
+        1 => ["is", ""],
+        _ => ["are", " together"],
+    };
+    let bound = certain_digits(reach.bound);
+    let why = match longest {
+        Some(longest) => format!("at least: {longest} alone is longer than {others}{are} by that"),
+        None => format!("at most: {others} {is} no longer{are}"),
+    };
+    format!("However the rest moves, {name} is {bound} {why}, proved.\n")
 }
 
 fn value_of(end: &End, beyond: &str, back: Bound) -> String {

@@ -195,11 +195,12 @@ fn katsura_5_is_told_by_two_searches() {
     assert_eq!(found.len(), 16);
 }
 
-/// From powers of the unknowns as many paths as the product of the degrees come to all solutions of a random instance; the others
-/// go to infinity. The numbers are Bézout's, noon-3's that published, and the two between those of eliminating by hand.
+/// From powers of the unknowns, or products of linear functions of groups of them, as many paths as the Bézout numbers say come to all
+/// solutions of a random instance; the others go to infinity. Noon-3's number is that published, a matrix has as many eigenvalues as rows, and
+/// the others are those of eliminating by hand.
 #[test]
-fn powers_of_unknowns_lead_to_all_solutions() {
-    let cases: [(&str, &[&str], usize, usize); 6] = [
+fn zeros_that_are_known_lead_to_all_solutions() {
+    let cases: [(&str, &[&str], usize, usize); 8] = [
         ("x", &["x^5 - x = 1"], 5, 5),
         ("x y", &["x^2 + 2*y^2 = 3", "x*y + 0.3*x = 1/7"], 4, 4),
         (
@@ -208,7 +209,7 @@ fn powers_of_unknowns_lead_to_all_solutions() {
             9,
             9,
         ),
-        ("x y", &["x^4 + y = 1", "y - 2*x^2 = 3"], 8, 4),
+        ("x y", &["x^4 + y = 1", "y - 2*x^2 = 3"], 6, 4),
         // A quotient is an unknown, with an equation of degree 2.
         ("x y", &["1/(x + y) + y = 3", "x - y^2 = 1"], 4, 3),
         (
@@ -220,6 +221,28 @@ fn powers_of_unknowns_lead_to_all_solutions() {
             ],
             27,
             21,
+        ),
+        (
+            "l x y z",
+            &[
+                "2*x + y - z = l*x",
+                "x + 3*y + z = l*y",
+                "y + 4*z + x = l*z",
+                "x + 0.3*y - 0.2*z = 1",
+            ],
+            3,
+            3,
+        ),
+        // Each in two of the three unknowns, as chances of mixed strategies are.
+        (
+            "x y z",
+            &[
+                "1 + 2*y - 3*z + 5*y*z = 0",
+                "2 - x + 4*z - 3*x*z = 0",
+                "3 + x - 7*y + 2*x*y = 0",
+            ],
+            2,
+            2,
         ),
     ];
     for (unknowns, equations, paths, solutions) in cases {
@@ -233,7 +256,7 @@ fn powers_of_unknowns_lead_to_all_solutions() {
             ..Default::default()
         };
         let fibre = krawl::complex::fill(&lowered.system, &filling).unwrap();
-        let led = fibre.led.expect("paths from powers");
+        let led = fibre.led.expect("paths from known zeros");
         let found = fibre.solutions.len();
         assert_eq!((led.paths, found), (paths, solutions), "{text} {led:?}");
         assert_eq!(

@@ -32,6 +32,11 @@ keys! {
         low: RangeEnd = RangeEnd::of(problem, &range.low, &range.low_figure),
         /// Where it grows to.
         high: RangeEnd = RangeEnd::of(problem, &range.high, &range.high_figure),
+    } or nothing {
+        /// No figure has less, by the other distances alone.
+        least: Option<f64> = range.reach[0].as_ref().map(|least| least.bound.inf()),
+        /// No figure has more, by the other distances alone.
+        most: Option<f64> = range.reach[1].as_ref().map(|most| most.bound.sup()),
     }
 }
 

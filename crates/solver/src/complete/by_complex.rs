@@ -34,7 +34,8 @@ pub(super) fn all(problem: &Problem, options: &Options) -> Option<Result<Complet
         return None;
     }
     let lowered = complex::lower(problem).ok()?;
-    lowered.bound.as_ref().filter(|bound| bound.count <= MOST)?;
+    let bound = lowered.bound.as_ref()?;
+    (bound.count <= MOST && bound.counts_curves).then_some(())?;
     let begin = Instant::now();
     let left = || {
         let time = options.time;

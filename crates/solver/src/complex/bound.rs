@@ -17,8 +17,9 @@
 //! more isolated figures.
 
 use super::laman;
-use crate::problem::{Atom, Item, Object, Problem, Shape, Terms};
-use std::collections::{HashMap, HashSet};
+use super::system::System;
+use super::total_degree::Degrees;
+use std::collections::HashMap;
 
 /// A bound on the number of isolated complex solutions up to rotation.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,49 +28,31 @@ pub struct Bound {
     pub count: u128,
     /// Where it comes from, in words.
     pub source: String,
+    /// Whether curves and surfaces of solutions count, too, each at least once: with as many isolated solutions there are none.
+    pub counts_curves: bool,
     /// Whether somebody cites it: then it is not proved here, and what rests on it holds if it does.
     pub is_cited: bool,
     /// The points that it holds fixed: their distances must not make them isotropic.
     pub fixed: Vec<usize>,
 }
 
-/// The bound of a problem of unknown numbers and equations of its own: the product of the degrees (Bézout's theorem: so many isolated
-/// zeros at most, each with its multiplicity).
+/// The bound of equations in unknown numbers that are not coordinates of points: the least multi-homogeneous Bézout number that is found
+/// for groups of unknowns ([`groups`]).
 ///
-/// A quotient in an equation is an unknown with an equation of its own, one degree above that of what is divided by; an unknown whose
-/// value is given is a coefficient. `None`: there is anything else in the problem.
-pub fn of_equations(problem: &Problem) -> Option<Bound> {
-    let values = problem.constraints.iter().filter(|c| c.kind == "values");
-    let given: HashSet<Item> = values.flat_map(|c| c.items.iter().copied()).collect();
-    let of_numbers = |object: &Object| matches!(object.shape, Shape::Number { .. });
-    if !problem.points.is_empty() || !problem.objects.iter().all(of_numbers) {
-        return None;
-    }
-    let mut count: u128 = 1;
-    for constraint in &problem.constraints {
-        let formula = match &constraint.formula {
-            Some(formula) => formula,
-            None if constraint.kind == "values" => continue,
-            None => return None,
-        };
-        let is_given = |atom: usize| matches!(formula.atoms[atom], Atom::Number(of) if given.contains(&Item::Object(of)));
-        let degree = |terms: &Terms| {
-            let open = |term: &Vec<usize>| term.iter().filter(|&&atom| !is_given(atom)).count();
-            terms.keys().map(open).max().unwrap_or(0) as u128
-        };
-        count = count.checked_mul(degree(&formula.zero))?;
-        for atom in &formula.atoms {
-            match atom {
-                Atom::Inverse(of) => count = count.checked_mul(degree(of) + 1)?,
-                Atom::Number(_) => {}
-                _ => return None,
-            }
-        }
-    }
-    // An equation without unknowns says nothing of zeros, or that there are none.
-    (count > 0).then(|| Bound {
-        count,
-        source: "Bézout's bound, the product of the degrees of the equations".to_owned(),
+/// [`groups`]: super::groups
+pub fn of_equations(system: &System) -> Option<Bound> {
+    let groups = Degrees::of(system)?.groups;
+    let last = groups.of.iter().max().copied().unwrap_or(0);
+    Some(Bound {
+        count: groups.count,
+        source: match last {
+            0 => "Bézout's bound, the product of the degrees of the equations".to_owned(),
+            _ => format!(
+                "the multi-homogeneous Bézout bound of the equations (unknowns in {} groups)",
+                last + 1
+            ),
+        },
+        counts_curves: last == 0,
         is_cited: false,
         fixed: Vec::new(),
     })
@@ -98,6 +81,7 @@ pub fn bound(dimension: usize, points: usize, edges: &[[usize; 2]]) -> Option<Bo
     Some(Bound {
         count,
         source: source.to_owned(),
+        counts_curves: false,
         is_cited: false,
         fixed,
     })

@@ -9,7 +9,7 @@ use crate::constraint::MAX_DEGREE;
 use crate::equations::Form;
 use crate::interval::Real;
 use crate::places::array;
-use crate::problem::{Problem, Target, list};
+use crate::problem::{Object, Problem, Shape, Target, list};
 use crate::rational::Rational;
 use crate::system::{GaugeError, Homotopy, Term};
 
@@ -54,6 +54,7 @@ impl Lowered {
         self.bound = Some(Bound {
             count,
             source: "the bound that you cite".to_owned(),
+            counts_curves: false,
             is_cited: true,
             fixed: Vec::new(),
         });
@@ -129,7 +130,7 @@ fn checked(lowered: Lowered) -> Result<Lowered, Unserved> {
 /// From the equations that real paths follow.
 fn general(problem: &Problem, placed: bool) -> Result<Lowered, Unserved> {
     let mut problem = problem.clone();
-    let mut bound = bound::of_equations(&problem);
+    let mut bound = None;
     if problem.is_distances_only() {
         let edges: Vec<[usize; 2]> = problem.distances.iter().map(|d| d.points).collect();
         bound = bound::bound(problem.dimension, problem.points.len(), &edges);
@@ -252,6 +253,10 @@ fn general(problem: &Problem, placed: bool) -> Result<Lowered, Unserved> {
     .with_groups(&turns);
     if is_absolute {
         own_frame::check_directions(&system, &problem, &homotopy)?;
+    }
+    let of_numbers = |object: &Object| matches!(object.shape, Shape::Number { .. });
+    if problem.points.is_empty() && problem.objects.iter().all(of_numbers) {
+        bound = bound::of_equations(&system);
     }
     // The bound is about figures that stand on what it holds fixed.
     let bound = bound.filter(|bound| {

@@ -39,6 +39,7 @@ mod exact;
 mod export;
 mod float;
 mod follow;
+mod groups;
 pub mod infinity;
 mod laman;
 mod lines;

@@ -1,29 +1,37 @@
-//! Filling a fibre by total degree: from the zeros of powers of the unknowns to those of all equations.
+//! Filling a fibre by degrees: from the zeros of equations of the same degrees whose zeros are known to those of all equations.
 //!
-//! Let p(x) = 0 be n equations of degrees d in n unknowns. The zeros of x_kᵈ = b_k, with b_k not zero, are told by roots of
+//! Let p(x) = 0 be n equations of degrees d in n unknowns. The zeros of q_k = x_kᵈ − b_k, with b_k not zero, are told by roots of
 //! unity; there are as many as the product of the degrees says, and each is regular. As s goes from 0 to 1 along a curve in
 //! the complex plane that avoids finitely many places, as almost all do, each of them is continued on
 //!
 //! ```text
-//! x_kᵈ + s v_k = b_k,    v_k = p_k(x) − x_kᵈ + b_k,
+//! q_k(x) + s v_k = 0,    v_k = p_k(x) − q_k(x),
 //! ```
 //!
 //! and every isolated zero of p is the end of one of these paths; the others go to infinity (Sommese, Wampler, *The Numerical
 //! Solution of Systems of Polynomials*, 2005, 8.4). s and all v_k are unknowns, so that the equations are quadratic with
 //! parameters on the right, as all others are, and so are powers of the unknowns.
 //!
+//! Where the unknowns are cut into groups in which degrees are lower ([`groups`]), q_k is a product of linear functions, each
+//! of the unknowns of one group, as many for each group as p_k's degree in it (the same, 8.4.3). A zero of all q makes one factor
+//! of each zero, for each group as many as it has unknowns.
+//!
 //! Paths are followed in floats: each solution that they come to is proved by itself, and that these are all by their number alone.
 //!
 //! Equations that define an unknown, those of products and of coefficients, are kept as they are: the degrees are those in the
 //! other unknowns.
+//!
+//! [`groups`]: super::groups
 
 use super::boxes::SolutionBox;
 use super::exact::{Exact, Parameter, Random, zero};
 use super::follow::{PathEnd, Ways, follow_all, prove_all};
+use super::groups::Groups;
 use super::monodromy::Fibre;
 use super::start::unknowns_of;
 use super::system::{Equation, Kind, System, Unknown, segment};
 use super::vector::Z;
+use crate::elimination::invert;
 use crate::equations::Form;
 use crate::interval::DoubleDouble;
 use crate::system::Term;
@@ -42,7 +50,7 @@ const LATE: f64 = 0.9;
 /// What came of all paths.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Led {
-    /// Paths that were followed: the product of the degrees.
+    /// Paths that were followed: as many as the multi-homogeneous Bézout number says.
     pub paths: usize,
     /// Those that went beyond the radius allowed.
     pub infinite: usize,
@@ -51,26 +59,29 @@ pub struct Led {
 }
 
 /// What is what in a system of equations.
-struct Degrees {
+pub struct Degrees {
     /// The unknowns that an equation defines, with it, in the order in which they can be computed from the others.
     told: Vec<(usize, usize)>,
     /// The other unknowns.
     free: Vec<usize>,
-    /// The other equations, as many, each with its degree.
-    open: Vec<(usize, usize)>,
+    /// The other equations, as many.
+    open: Vec<usize>,
+    /// Groups of the other unknowns, with the degrees of the other equations.
+    pub groups: Groups,
 }
 
 impl Degrees {
     /// `None` where equations that define unknowns go in a circle, or their number is not that of the unknowns they leave.
-    fn of(system: &System) -> Option<Self> {
+    pub fn of(system: &System) -> Option<Self> {
         let n = system.unknowns.len();
         let mut by: Vec<Option<usize>> = vec![None; n];
         for (e, equation) in system.equations.iter().enumerate() {
             let is_alone = |u: &usize| by[*u].is_none() && system.stands_alone(e, *u);
             match &equation.right {
                 Kind::Fixed(_) => {
-                    let unknown = (0..n).rev().find(is_alone)?;
-                    by[unknown] = Some(e);
+                    if let Some(unknown) = (0..n).rev().find(is_alone) {
+                        by[unknown] = Some(e);
+                    }
                 }
                 // A coefficient.
                 Kind::Parameter(_) => {
@@ -83,42 +94,50 @@ impl Degrees {
             }
         }
         let free: Vec<usize> = (0..n).filter(|&u| by[u].is_none()).collect();
-        let mut degrees: Vec<Option<usize>> =
-            by.iter().map(|by| by.is_none().then_some(1)).collect();
+        let mut is_known: Vec<bool> = by.iter().map(Option::is_none).collect();
         let mut told = Vec::new();
         while told.len() + free.len() < n {
-            let (unknown, equation, degree) = (0..n).find_map(|u| {
-                let equation = by[u].filter(|_| degrees[u].is_none())?;
-                let rest = |other: usize| if other == u { Some(0) } else { degrees[other] };
-                Some((u, equation, degree(system, equation, rest)?))
+            let next = (0..n).find_map(|u| {
+                let equation = by[u].filter(|_| !is_known[u])?;
+                let mut others = unknowns_of(system, equation).filter(|&other| other != u);
+                others.all(|other| is_known[other]).then_some((u, equation))
             })?;
-            degrees[unknown] = Some(degree);
-            told.push((unknown, equation));
+            is_known[next.0] = true;
+            told.push(next);
         }
-        let others = (0..n).filter(|e| !by.contains(&Some(*e)));
-        let open = others.map(|e| Some((e, degree(system, e, |u| degrees[u])?)));
-        let open: Vec<(usize, usize)> = open.collect::<Option<_>>()?;
-        (open.len() == free.len()).then_some(Degrees { told, free, open })
-    }
-
-    /// The product of the degrees, unless it is zero or too large.
-    fn paths(&self) -> Option<usize> {
-        let mut degrees = self.open.iter().map(|&(_, degree)| degree);
-        let product = degrees.try_fold(1usize, usize::checked_mul)?;
-        (1..=MOST_PATHS).contains(&product).then_some(product)
+        let open: Vec<usize> = (0..n).filter(|e| !by.contains(&Some(*e))).collect();
+        let degrees_in = |marked: &[bool]| {
+            let mut degrees = vec![0; n];
+            let marked = free.iter().zip(marked);
+            marked.for_each(|(&u, &is_in)| degrees[u] = usize::from(is_in));
+            for &(unknown, equation) in &told {
+                // Its own is still 0.
+                degrees[unknown] = degree(system, equation, &degrees);
+            }
+            let open = open.iter();
+            open.map(|&e| degree(system, e, &degrees)).collect()
+        };
+        let groups = Groups::least(free.len(), degrees_in)?;
+        (open.len() == free.len()).then_some(Degrees {
+            told,
+            free,
+            open,
+            groups,
+        })
     }
 }
 
 /// The degree of an equation, where unknowns have these.
-fn degree(system: &System, equation: usize, of: impl Fn(usize) -> Option<usize>) -> Option<usize> {
+fn degree(system: &System, equation: usize, of: &[usize]) -> usize {
     let form = |form: Form<Option<usize>>| {
         let unknowns = form.entries().filter_map(|(entry, _)| entry);
-        unknowns.map(&of).try_fold(0, |max, of| Some(of?.max(max)))
+        unknowns.map(|u| of[u]).max().unwrap_or(0)
     };
-    let mut terms = system.equations[equation].terms.iter();
-    terms.try_fold(0, |max: usize, term| {
-        Some(max.max(form(term.left)? + form(term.right)?))
-    })
+    let terms = system.equations[equation].terms.iter();
+    terms
+        .map(|term| form(term.left) + form(term.right))
+        .max()
+        .unwrap_or(0)
 }
 
 /// A system that is being written.
@@ -201,32 +220,37 @@ fn near([re, im]: &Parameter) -> Z {
     Z::new(re.double().0, im.double().0)
 }
 
-/// A number of which the unknown's power is at the start.
-struct Root {
-    unknown: usize,
-    degree: usize,
-    right: Z,
+/// Of what the equations at the start are made.
+enum Start {
+    /// Of each free unknown a power is this number: the unknown, the power, the number.
+    Roots(Vec<(usize, usize, Z)>),
+    /// Of each equation one of these linear functions is zero.
+    Products(Vec<Vec<Linear>>),
 }
 
-impl Root {
-    /// One of its roots.
-    fn turned(&self, turns: usize) -> Z {
-        let Z { re, im } = self.right;
-        let angle = im.hi.atan2(re.hi) + TAU * turns as f64;
-        let size = self.right.norm_sqr().powf(0.5 / self.degree as f64);
-        let (sine, cosine) = (angle / self.degree as f64).sin_cos();
-        Z::new((size * cosine).into(), (size * sine).into())
-    }
+/// Whole multiples of a group's unknowns and a number, summed up.
+struct Linear {
+    group: usize,
+    /// One for each unknown of the group.
+    factors: Vec<i32>,
+    constant: Z,
 }
 
-/// The equations that lead the zeros of powers to those of an instance with these parameters: s is told by the last one. With the numbers
-/// of which the powers are.
+/// A root of a number, one of as many as the degree says.
+fn root(Z { re, im }: Z, degree: usize, turns: usize) -> Z {
+    let angle = im.hi.atan2(re.hi) + TAU * turns as f64;
+    let size = Z::new(re, im).norm_sqr().powf(0.5 / degree as f64);
+    let (sine, cosine) = (angle / degree as f64).sin_cos();
+    Z::new((size * cosine).into(), (size * sine).into())
+}
+
+/// The equations that lead zeros that are known to those of an instance with these parameters: s is told by the last one.
 fn equations(
     system: &System,
     degrees: &Degrees,
     parameters: &[Parameter],
     random: &mut Random,
-) -> (Leading, Vec<Root>) {
+) -> (Leading, Start) {
     let mut leading = Leading {
         system: System {
             equations: Vec::new(),
@@ -240,26 +264,33 @@ fn equations(
         let terms = system.equations[equation].terms.clone();
         leading.define(unknown, terms, parameters[equation].clone());
     }
-    let mut roots = Vec::with_capacity(degrees.free.len());
-    for (&unknown, &(equation, degree)) in degrees.free.iter().zip(&degrees.open) {
-        let right = random.apart_from_zero().parts();
-        roots.push(Root {
-            unknown,
-            degree,
-            right: near(&right),
-        });
-        let [left, other] = leading.power(&mut vec![(1, unknown)], degree);
-        let rest = leading.unknown(format!("rest of {}", system.equations[equation].name));
-        let of = system.equations[equation].terms.iter();
+    let groups = &degrees.groups;
+    let is_one = groups.of.iter().all(|group| *group == 0);
+    let (mut roots, mut products) = (Vec::new(), Vec::new());
+    let open = degrees.free.iter().zip(&degrees.open);
+    for ((&unknown, &equation), of) in open.zip(&groups.degrees) {
+        // The start's equation is start = right.
+        let (start, right) = if is_one {
+            let right = random.apart_from_zero().parts();
+            roots.push((unknown, of[0], near(&right)));
+            (leading.power(&mut vec![(1, unknown)], of[0]), right)
+        } else {
+            let (forms, linears) = leading.linears(degrees, of, random);
+            products.push(linears);
+            (leading.product(&forms), zero())
+        };
+        let name = &system.equations[equation].name;
+        let rest = leading.unknown(format!("rest of {name}"));
+        let p = system.equations[equation].terms.iter();
         let mut terms = vec![
             Term::new(2, value(rest), Form::One),
-            Term::new(2, left, other),
+            Term::new(2, start[0], start[1]),
         ];
-        terms.extend(of.map(|term| Term::new(-term.factor, term.left, term.right)));
+        terms.extend(p.map(|term| Term::new(-term.factor, term.left, term.right)));
         let [b, c] = [&right, &parameters[equation]];
         leading.define(rest, terms, [&b[0] - &c[0], &b[1] - &c[1]]);
         let terms = vec![
-            Term::new(2, left, other),
+            Term::new(2, start[0], start[1]),
             Term::new(2, value(along), value(rest)),
         ];
         leading.equation(terms, right);
@@ -267,30 +298,135 @@ fn equations(
     leading.equation(vec![Term::new(2, value(along), Form::One)], zero());
     let n = leading.from.len();
     leading.system = leading.system.with_groups(&[vec![false; n]]);
-    (leading, roots)
+    let start = match is_one {
+        true => Start::Roots(roots),
+        false => Start::Products(products),
+    };
+    (leading, start)
 }
 
-/// Leads the zeros of powers to those of a fibre's instance, and adds what is new to it. `None`, and nothing is done, where equations
-/// have no degrees, or the product of these is too large.
+impl Leading {
+    /// For an equation of these degrees in the groups as many linear functions of each, as unknowns, and what they are.
+    fn linears(
+        &mut self,
+        degrees: &Degrees,
+        of: &[usize],
+        random: &mut Random,
+    ) -> (Vec<usize>, Vec<Linear>) {
+        let groups = &degrees.groups;
+        let each = of.iter().enumerate();
+        let each = each.flat_map(|(group, &degree)| vec![group; degree]);
+        let made = each.map(|group| {
+            let members = degrees.free.iter().zip(&groups.of);
+            let members = members.filter(|(_, own)| **own == group);
+            let members: Vec<usize> = members.map(|(&u, _)| u).collect();
+            let draw = |_: &usize| match random.bits() % 18 {
+                k @ 0..9 => k as i32 - 9,
+                k => k as i32 - 8,
+            };
+            let factors: Vec<i32> = members.iter().map(draw).collect();
+            let constant = random.apart_from_zero().parts();
+            let form = self.unknown(format!("linear function {}", self.from.len() + 1));
+            let mut terms = vec![Term::new(2, value(form), Form::One)];
+            let sum = members.iter().zip(&factors);
+            terms.extend(sum.map(|(&u, f)| Term::new(-2 * f, value(u), Form::One)));
+            let linear = Linear {
+                group,
+                factors,
+                constant: near(&constant),
+            };
+            self.define(form, terms, constant);
+            (form, linear)
+        });
+        made.unzip()
+    }
+
+    /// The two forms of which a product of unknowns is the product.
+    fn product(&mut self, unknowns: &[usize]) -> [Form<Option<usize>>; 2] {
+        match *unknowns {
+            [] => [Form::One; 2],
+            [one] => [value(one), Form::One],
+            [one, other] => [value(one), value(other)],
+            [ref first @ .., last] => {
+                let [left, right] = self.product(first);
+                let of_first = self.unknown(format!("product {}", self.from.len() + 1));
+                let terms = vec![
+                    Term::new(2, value(of_first), Form::One),
+                    Term::new(-2, left, right),
+                ];
+                self.define(of_first, terms, zero());
+                [value(of_first), value(last)]
+            }
+        }
+    }
+}
+
+impl Start {
+    /// The zeros at the start: a value for each of the free unknowns.
+    fn zeros(&self, degrees: &Degrees) -> Vec<Vec<Z>> {
+        match self {
+            // Every choice of a root for each unknown.
+            Start::Roots(roots) => {
+                let zero = |mut choice: usize| {
+                    let of = roots.iter().map(|&(_, degree, right)| {
+                        let turns = choice % degree;
+                        choice /= degree;
+                        root(right, degree, turns)
+                    });
+                    of.collect()
+                };
+                (0..degrees.groups.count as usize).map(zero).collect()
+            }
+            Start::Products(products) => {
+                let chosen = degrees.groups.chosen(|e, group| {
+                    let linears = products[e].iter();
+                    linears.filter(|linear| linear.group == group).collect()
+                });
+                let zeros = chosen.iter();
+                zeros
+                    .filter_map(|linears| common_zero(linears, &degrees.groups.of))
+                    .collect()
+            }
+        }
+    }
+}
+
+/// Where linear functions of unknowns in these groups, for each group as many as it has unknowns, are all zero.
+fn common_zero(linears: &[&Linear], groups: &[usize]) -> Option<Vec<Z>> {
+    let mut zero = vec![Z::default(); groups.len()];
+    for group in 0..=groups.iter().max().copied()? {
+        let members: Vec<usize> = (0..groups.len()).filter(|&u| groups[u] == group).collect();
+        let own: Vec<&&Linear> = linears.iter().filter(|l| l.group == group).collect();
+        let factors = own.iter().flat_map(|linear| &linear.factors);
+        let mut inverse: Vec<f64> = factors.map(|&f| f.into()).collect();
+        invert(&mut inverse, members.len()).then_some(())?;
+        for (&u, row) in members.iter().zip(inverse.chunks(members.len())) {
+            let terms = row.iter().zip(&own);
+            zero[u] = terms.fold(Z::default(), |sum, (&y, l)| sum - Z::real(y) * l.constant);
+        }
+    }
+    Some(zero)
+}
+
+/// Leads zeros that are known to those of a fibre's instance, and adds what is new to it. `None`, and nothing is done, where equations
+/// have no degrees, or there would be too many paths.
 pub fn lead(system: &System, fibre: &mut Fibre, random: &mut Random, ways: &Ways) -> Option<Led> {
     if !system.points.is_empty() {
         return None;
     }
     let degrees = Degrees::of(system)?;
-    let paths = degrees.paths()?;
-    let (leading, roots) = equations(system, &degrees, &fibre.parameters, random);
+    let paths = usize::try_from(degrees.groups.count).ok()?;
+    (paths <= MOST_PATHS).then_some(())?;
+    let (leading, start) = equations(system, &degrees, &fibre.parameters, random);
     let (n, from) = (leading.from.len(), &leading.from);
-    // Every choice of a root for each unknown.
-    let start = |mut choice: usize| {
+    let starts = start.zeros(&degrees).into_iter().map(|free| {
         let mut values = vec![Z::default(); n];
-        for root in &roots {
-            values[root.unknown] = root.turned(choice % root.degree);
-            choice /= root.degree;
-        }
+        let free = degrees.free.iter().zip(free);
+        free.for_each(|(&unknown, value)| values[unknown] = value);
         leading.complete(&mut values);
         values.iter().flat_map(|z| [z.re, z.im]).collect()
-    };
-    let starts: Vec<Vec<DoubleDouble>> = (0..paths).map(start).collect();
+    });
+    let starts: Vec<Vec<DoubleDouble>> = starts.collect();
     let proved = prove_all(&leading.system, &segment(from, from, None), &starts, ways);
     let starts: Vec<SolutionBox> = proved.into_iter().flatten().collect();
     let starts: Vec<&SolutionBox> = starts.iter().collect();

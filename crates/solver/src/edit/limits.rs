@@ -7,7 +7,7 @@ use crate::blocks::Account;
 use crate::constraint::Measure;
 use crate::interval::Interval;
 use crate::problem::Decimal;
-use crate::remarks::detour;
+use crate::remarks::{Reach, reach};
 use crate::track::{Control, StopKind};
 use std::slice;
 
@@ -43,6 +43,8 @@ pub struct Range {
     pub high_figure: Vec<[Interval; 3]>,
     /// What both ends are proved of.
     pub account: Account,
+    /// The least and the greatest that no figure goes beyond, by the other distances alone.
+    pub reach: [Option<Reach>; 2],
 }
 
 impl End {
@@ -62,10 +64,11 @@ impl Session {
     pub fn range(&mut self, index: usize, control: &mut Control) -> Range {
         let value = self.length(index);
         let problem = self.problem();
-        let way_round = match index < problem.distances.len() {
-            true => detour(problem, index).map(|(_, length)| length),
-            false => None,
+        let reach = match index < problem.distances.len() {
+            true => reach(problem, index),
+            false => [None, None],
         };
+        let way_round = reach[1].as_ref().map(|most| most.bound.sup());
         let (low, high) = match (measure(problem, index), way_round) {
             // No figure is that long: the other distances between its ends do not reach.
             (_, Some(longest)) => (SMALLEST * value.mid(), 1.0625 * longest.max(value.sup())),
@@ -97,6 +100,7 @@ impl Session {
             low_figure,
             high_figure,
             account,
+            reach,
         }
     }
 

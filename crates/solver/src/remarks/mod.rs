@@ -28,7 +28,8 @@ use crate::problem::{Item, Object, Problem};
 use crate::statement::neighbours;
 
 pub use moving::{Moves, moves};
-pub(crate) use target::detour;
+pub use target::Reach;
+pub(crate) use target::reach;
 pub use words::in_words;
 
 /// Something to know about a problem. Numbers are indices of points, but for `distance`.

@@ -15,29 +15,23 @@ fn length(problem: &Problem, distance: usize) -> Interval {
     problem.distances[distance].target.enclose()
 }
 
-/// The shortest way from one end of a distance to the other along the others, and a bound on its length, not
-/// less than it is.
-pub(crate) fn detour(problem: &Problem, index: usize) -> Option<(Vec<usize>, f64)> {
-    let [from, to] = problem.distances[index].points;
+/// The shortest ways from a point to all others along all distances but one: how long each is, and the point before its last; `None` where there
+/// is none.
+fn ways(problem: &Problem, from: usize, without: usize) -> Vec<Option<(Interval, usize)>> {
     let n = problem.points.len();
-    let mut way = vec![f64::INFINITY; n];
-    let mut before = vec![usize::MAX; n];
-    way[from] = 0.0;
+    let mut ways = vec![None; n];
+    ways[from] = Some((point(0.0), n));
     // Bellman and Ford's method.
     for _ in 0..n {
         let mut changed = false;
-        for (k, distance) in problem.distances.iter().enumerate() {
-            if k == index {
-                continue;
-            }
+        let others = problem.distances.iter().enumerate();
+        for (k, distance) in others.filter(|(k, _)| *k != without) {
             let [a, b] = distance.points;
             for (a, b) in [(a, b), (b, a)] {
-                if !way[a].is_finite() {
-                    continue;
-                }
-                let sum = (point(way[a]) + length(problem, k)).sup();
-                if sum < way[b] {
-                    (way[b], before[b]) = (sum, a);
+                let Some((way, _)) = ways[a] else { continue };
+                let sum: Interval = way + length(problem, k);
+                if ways[b].is_none_or(|(other, _)| sum.sup() < other.sup()) {
+                    ways[b] = Some((sum, a));
                     changed = true;
                 }
             }
@@ -46,18 +40,64 @@ pub(crate) fn detour(problem: &Problem, index: usize) -> Option<(Vec<usize>, f64
             break;
         }
     }
-    if !way[to].is_finite() {
-        return None;
-    }
-    let mut points = vec![to];
-    while let Some(&last) = points.last()
-        && last != from
-        && points.len() <= n
-    {
-        points.push(before[last]);
-    }
+    ways
+}
+
+/// The points on a way, to the one at its end.
+fn way_to(ways: &[Option<(Interval, usize)>], to: usize) -> Vec<usize> {
+    let before = |&p: &usize| {
+        ways[p]
+            .map(|(_, before)| before)
+            .filter(|&p| p < ways.len())
+    };
+    let points = std::iter::successors(Some(to), before).take(ways.len());
+    let mut points: Vec<usize> = points.collect();
     points.reverse();
-    Some((points, way[to]))
+    points
+}
+
+/// What a distance can be in no figure, by the others alone.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Reach {
+    /// A bound on it.
+    pub bound: Interval,
+    /// The points on the way from its one end to the other from which that follows.
+    pub way: Vec<usize>,
+    /// Of a bound from below the distance on this way, by the number of its first point, that is longer than the others.
+    pub longest: Option<usize>,
+}
+
+/// The least and the greatest that a distance can be by the others alone, whatever moves: no figure has less than what the longest of
+/// a way leaves if all the others are laid against it, and none more than a way around.
+pub(crate) fn reach(problem: &Problem, index: usize) -> [Option<Reach>; 2] {
+    let [from, to] = problem.distances[index].points;
+    let [there, back] = [from, to].map(|end| ways(problem, end, index));
+    let others = problem.distances.iter().enumerate();
+    let each = others.filter(|(k, _)| *k != index).flat_map(|(k, other)| {
+        let [a, b] = other.points;
+        [[a, b], [b, a]].map(|[a, b]| {
+            let others = there[a]?.0 + back[b]?.0;
+            Some((a, b, length(problem, k) - others))
+        })
+    });
+    let longest = each.flatten().filter(|(.., left)| left.inf() > 0.0);
+    let longest = longest.max_by(|x, y| x.2.inf().total_cmp(&y.2.inf()));
+    let least = longest.map(|(a, b, bound)| {
+        let mut way = way_to(&there, a);
+        let longest = Some(way.len() - 1);
+        way.extend(way_to(&back, b).into_iter().rev());
+        Reach {
+            bound,
+            way,
+            longest,
+        }
+    });
+    let most = there[to].map(|(bound, _)| Reach {
+        bound,
+        way: way_to(&there, to),
+        longest: None,
+    });
+    [least, most]
 }
 
 /// Distances that are longer than the shortest way around.
@@ -69,12 +109,13 @@ pub(super) fn too_long(problem: &Problem) -> Vec<Remark> {
     }
     (0..problem.distances.len())
         .filter_map(|distance| {
-            let (way, around) = detour(problem, distance)?;
-            let is_too_long = length(problem, distance).inf() > around;
+            let [_, most] = reach(problem, distance);
+            let Reach { bound, way, .. } = most?;
+            let is_too_long = length(problem, distance).inf() > bound.sup();
             is_too_long.then_some(Remark::TooLong {
                 distance,
                 way,
-                length: around,
+                length: bound.sup(),
             })
         })
         .collect()
