@@ -121,6 +121,10 @@ fn listed(file: &Path) -> Result<Vec<Listed>, String> {
 /// What a file of another program holds: its sketches, or the one of them.
 fn describe_sketches(file: &Path, which: &input::Which) -> Result<(String, u8), String> {
     let listed = listed(file)?;
+    if listed.is_empty() {
+        let file = file.display();
+        return Err(format!("{file}: there is no sketch and no molecule in it"));
+    }
     if listed.len() != 1 && which.sketch.is_none() {
         let mut text = format!(
             "{} in {}; take one with --sketch NAME\n",

@@ -27,6 +27,12 @@ impl<'a> Results<'a> {
         let pictures = pictures
             .into()
             .map(|pictures| pictures.places(read.clone()));
+        if [json, csv] == [Some(Path::new("-")); 2] {
+            return Err(
+                "`--json -` and `--csv -` both write to standard output: name a file for one"
+                    .to_owned(),
+            );
+        }
         Ok(Results {
             json: beside(read.clone(), json)?,
             csv: beside(read, csv)?,

@@ -7,7 +7,9 @@ use super::pictures::Pictures;
 use super::results::Results;
 use super::{input, interrupt, table};
 use crate::places::Each as _;
+use krawl::constraint::MOST_TURN;
 use krawl::edit::{Asked, Setting};
+use krawl::problem::Decimal;
 use krawl::report::{Document, sweep_in_words, sweep_to_csv};
 use std::path::PathBuf;
 
@@ -120,7 +122,15 @@ fn drive(arguments: &Arguments, vary: &str, ends: [&str; 2]) -> Result<u8, Refus
     let measures = arguments.measured.of(problem)?;
     let as_turns = asked.in_words(problem);
     let (mut problem, mut index) = (asked.problem, asked.settings[0].index);
-    let [from, to] = ends.map(|value| value.parse().expect("it was just parsed"));
+    let [from, to]: [Decimal; 2] = ends.map(|value| value.parse().expect("it was just parsed"));
+    let step = (to.to_f64() - from.to_f64()).abs() / f64::from(arguments.frames - 1);
+    let driven = index.checked_sub(problem.distances.len());
+    if step > MOST_TURN.into() && driven.is_some_and(|c| problem.constraints[c].kind == "turns") {
+        return Err(in_file(file)(format!(
+            "{vary} turns by {step} degrees from one frame to the next, and at most by {MOST_TURN} it may: ask for more `--frames`"
+        ))
+        .into());
+    }
     let mut cert = arguments.cert.as_deref();
     let mut account = None;
     if cert.is_some() {

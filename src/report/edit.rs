@@ -112,8 +112,12 @@ pub fn edit_in_words(problem: &Problem, edited: &Edited) -> String {
                 scope if scope.is_empty() => scope,
                 scope => format!("{scope}, "),
             };
+            let near = match edited.t.1 >= 1.0 {
+                true => " Whether what was wanted is beyond that is not decided: it is too near.",
+                false => "",
+            };
             format!(
-                "Limit, proved: {scope}{reached}{together}{left_out}. {}",
+                "Limit, proved: {scope}{reached}{together}{left_out}.{near} {}",
                 limit_in_words(problem, limit)
             )
         }
@@ -228,12 +232,11 @@ pub fn limit_in_words(problem: &Problem, limit: &Limit) -> String {
     )
 }
 
-/// A length in few digits, for sentences.
+/// A length in few digits, for sentences: no more than tell it from others, but thirteen where its bounds are further apart.
 pub(super) fn short(x: Interval) -> String {
-    let middle = format!("{:.12e}", x.mid())
-        .parse::<f64>()
-        .unwrap_or(x.mid());
-    format!("{middle}")
+    let digits = |k: usize| format!("{:.k$e}", x.mid()).parse::<f64>().ok();
+    let middle = (12..17).find_map(|k| digits(k).filter(|&y| x.contains(y)));
+    format!("{}", middle.or(digits(12)).unwrap_or(x.mid()))
 }
 
 /// An edit as a text of several lines: how it ended, the figure, what became of orientations, numbers of the

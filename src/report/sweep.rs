@@ -91,11 +91,13 @@ pub fn ranges_to_table(problem: &Problem, ranges: &[Range], moved: Moved) -> Str
 /// What no figure goes beyond, however it moves.
 fn reach_in_words(problem: &Problem, index: usize, reach: &Reach) -> String {
     let name = problem.dimension_name(index);
-    let point = |p: usize| problem.points[p].name.as_str();
-    let pairs = reach.way.windows(2);
-    let mut pairs: Vec<String> = pairs
-        .map(|p| format!("{}-{}", point(p[0]), point(p[1])))
-        .collect();
+    let pairs = reach.way.windows(2).filter_map(|pair| {
+        let mut distances = problem.distances.iter();
+        let known = distances
+            .position(|d| d.points == [pair[0], pair[1]] || d.points == [pair[1], pair[0]]);
+        known.map(|index| problem.distance_name(index))
+    });
+    let mut pairs: Vec<String> = pairs.collect();
     let longest = reach.longest.map(|place| pairs.remove(place));
     let others = list(&pairs, 8);
     let [is, are] = match pairs.len() {

@@ -177,7 +177,11 @@ impl Surplus {
 
     /// Searches all figures, and tests them: those that were proved to miss a distance are no solutions.
     pub fn search(&self, options: &Options) -> Result<Complete, Unserved> {
-        let mut result = all(&self.problem, options)?;
+        // A certificate is read without what was left out.
+        let mut used = self.problem.clone();
+        let all_of_them = self.used() + self.spare.len();
+        used.name += &format!(" (with {} of its {all_of_them} constraints)", self.used());
+        let mut result = all(&used, options)?;
         let figures = result.solutions.iter();
         let figures: Vec<Vec<LeftOut>> =
             figures.map(|figure| self.account(&figure.points)).collect();

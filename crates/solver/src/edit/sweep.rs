@@ -91,5 +91,8 @@ fn between(from: &Decimal, to: &Decimal, k: usize, n: usize) -> Decimal {
     let power = Rational::from_integer(BigInt::from(10)).pow(digits);
     let scaled = (exact * power).round().to_integer();
     let text = format!("{scaled}e{}", -digits);
-    text.parse().unwrap_or_else(|_| from.clone())
+    // Written without a power of ten.
+    let plain = |value: Decimal| value.plus(&0.into());
+    let value = text.parse().and_then(plain);
+    value.map_or_else(|_| from.clone(), Decimal::trimmed)
 }

@@ -11,6 +11,7 @@
 
 use crate::elimination::invert;
 use crate::equations::Form;
+use crate::interval::rounding::{gamma, in_range, round_up};
 use crate::interval::{Interval, around, hull, point};
 use crate::system::Homotopy;
 use std::cell::OnceCell;
@@ -42,10 +43,10 @@ pub(super) struct Family {
     differences: Vec<Difference>,
     /// The terms of second order of each equation.
     terms: Vec<Vec<Term>>,
-    /// By Y, what each equation adds to each difference: a row for each difference.
-    applied: Vec<Interval>,
-    /// I − Y J in the middle.
-    defect: Vec<Interval>,
+    /// By Y, what each equation adds to each difference, a row for each difference: each rounded once.
+    applied: Vec<f64>,
+    /// I − Y J in the middle: bounds.
+    defect: Vec<f64>,
     /// The left-hand sides in the middle.
     left: Vec<Interval>,
     /// The right-hand sides less the left-hand ones in the middle, for all choices.
@@ -84,7 +85,7 @@ impl Middle {
             let slopes = homotopy.slopes(e, |i| point(centre[i]));
             inverse.extend(slopes.iter().map(|x| x.mid()));
         }
-        let is_regular = invert(&mut inverse, m) && inverse.iter().all(|x| x.is_finite());
+        let is_regular = invert(&mut inverse, m) && inverse.iter().all(|&x| in_range(x));
         is_regular.then_some(Middle { centre, inverse })
     }
 
@@ -151,11 +152,12 @@ impl Family {
             }
         }
         (0..m).for_each(|i| defect[i * m + i] += point(1.0));
+        let defect = defect.iter().map(|x| x.mag()).collect();
         let applied = differences.iter().flat_map(|ends| {
             let [a, b] = ends.map(|end| end.map(|i| &inverse[i * m..(i + 1) * m]));
             (0..m).map(move |e| {
                 let [a, b] = [a, b].map(|row| row.map_or(0.0, |row| row[e]));
-                point(a) - point(b)
+                a - b
             })
         });
         let applied = applied.collect();
@@ -194,14 +196,17 @@ impl Family {
                 (1.1 * x.sup()).max(0.0) + room,
             )
         };
-        self.linear = self.image(&self.grown, &[]);
+        let Some(linear) = self.image(&self.grown, &[]) else {
+            return false;
+        };
+        self.linear = linear;
         let mut image = vec![point(0.0); self.differences.len()];
         for _ in 0..ROUNDS {
             let all = image.iter().zip(&self.differences);
             self.only = all.map(|(x, ends)| wider(x, ends)).collect();
             self.around = sums(&self.linear, &self.only);
-            let second = self.second_order(|e| {
-                sum(self.terms[e].iter().map(|&(factor, a, b)| {
+            let second = self.terms.iter().map(|terms| {
+                -sum(terms.iter().map(|&(factor, a, b)| {
                     factor
                         * match a == b {
                             true => self.around[a].sqr(),
@@ -209,11 +214,11 @@ impl Family {
                         }
                 }))
             });
-            image = self.image(&second, &self.around);
-            // Beyond, sums of what is bounded are no numbers.
-            if image.iter().any(|x| x.mag().is_nan() || x.mag() > FAR) {
+            let second: Vec<Interval> = second.collect();
+            let Some(next) = self.image(&second, &self.around) else {
                 return false;
-            }
+            };
+            image = next;
             if image.iter().zip(&self.only).all(|(x, set)| x.subset(*set)) {
                 self.rest = image;
                 return true;
@@ -222,26 +227,39 @@ impl Family {
         false
     }
 
-    /// For each equation minus a part of it that is of second order.
-    fn second_order(&self, of: impl Fn(usize) -> Interval) -> Vec<Interval> {
-        (0..self.terms.len()).map(|e| -of(e)).collect()
+    /// Of Y f + (I − Y J) u each difference; the unknowns' u come first, and where there are none that part is left out. `None`: what comes of
+    /// it is beyond all numbers.
+    ///
+    /// With ŷ the rounded entries of a row, off by less than 2 u |ŷ|, and f between f̂ ± r, the sum of the products differs from that of ŷ f̂ as
+    /// computed by at most Σ |ŷ| (r + γ (|f̂| + r)), γ for as many products and four more (Higham, section 3.1).
+    fn image(&self, f: &[Interval], u: &[Interval]) -> Option<Vec<Interval>> {
+        let m = self.middle.centre.len();
+        let gamma = gamma(m + 4);
+        let middles: Vec<f64> = f.iter().map(|f| f.mid()).collect();
+        let radii = f
+            .iter()
+            .map(|f| f.rad() + gamma * (f.mid().abs() + f.rad()));
+        let sizes: Vec<f64> = u.iter().take(m).map(|u| u.mag()).collect();
+        let bounds = self.sizes(&radii.collect::<Vec<_>>(), &sizes);
+        let rows = self.applied.chunks(m.max(1)).zip(bounds);
+        rows.map(|(row, bound)| {
+            let middle = dot(row, &middles, |y| y);
+            let is_known = middle.abs() <= FAR && bound <= FAR;
+            is_known.then(|| around(middle, bound))
+        })
+        .collect()
     }
 
-    /// Of Y f + (I − Y J) u each difference; the unknowns' u come first, and where there are none that part is left out.
-    fn image(&self, f: &[Interval], u: &[Interval]) -> Vec<Interval> {
+    /// Bounds on |Y| f + |I − Y J| u for each difference, where no number is less than 0.
+    fn sizes(&self, f: &[f64], u: &[f64]) -> Vec<f64> {
         let m = self.middle.centre.len();
-        let from_middle: Vec<Interval> = match u.get(..m) {
-            None => vec![point(0.0); m],
-            Some(u) => {
-                let rows = self.defect.chunks(m.max(1));
-                rows.map(|row| sum(row.iter().zip(u).map(|(r, u)| *r * *u)))
-                    .collect()
-            }
-        };
+        let rows = self.defect.chunks(m.max(1));
+        let from_middle: Vec<f64> = rows.map(|row| dot(row, u, |x| x)).collect();
         let rows = self.differences.iter().zip(self.applied.chunks(m.max(1)));
         rows.map(|(ends, row)| {
-            let [a, b] = ends.map(|end| end.map_or(point(0.0), |i| from_middle[i]));
-            sum(row.iter().zip(f).map(|(y, f)| *y * *f)) + (a - b)
+            let ends = ends.iter().flatten().map(|&i| from_middle[i]);
+            // What is rounded: f, each y, a product and the sums.
+            round_up(dot(row, f, f64::abs) + ends.sum::<f64>(), m + 10)
         })
         .collect()
     }
@@ -251,13 +269,13 @@ impl Family {
     fn contracts(&mut self) -> bool {
         /// Less than this is sought for a while.
         const ENOUGH: f64 = 0.5;
-        let sizes = self.around.iter().map(|x| x.mag());
+        let sizes: Vec<f64> = self.around.iter().map(|x| x.mag()).collect();
         // What hardly moves is not weighed as if nothing about it could be wrong.
-        let least = 1e-3 * sizes.clone().fold(f64::EPSILON, f64::max);
-        let first: Vec<f64> = sizes.map(|size| size + least).collect();
+        let least = 1e-3 * sizes.iter().copied().fold(f64::EPSILON, f64::max);
+        let first: Vec<f64> = sizes.iter().map(|size| size + least).collect();
         let mut weights = first.clone();
         for _ in 0..ROUNDS {
-            let image = self.norm_of_image(&self.around, &weights);
+            let image = self.norm_of_image(&sizes, &weights);
             let norm = greatest_part(&image, &weights);
             let next = first.iter().zip(&image).map(|(a, b)| a + b).collect();
             let tried = std::mem::replace(&mut weights, next);
@@ -273,19 +291,15 @@ impl Family {
     }
 
     /// Bounds of the differences of (I − Y J) v, where those of v are bounded, J the Jacobian at places whose differences, as seen from the middle,
-    /// are `around`.
-    fn norm_of_image(&self, around: &[Interval], bounds: &[f64]) -> Vec<f64> {
-        let v: Vec<Interval> = bounds.iter().map(|&s| hull(-s, s)).collect();
-        let turned = self.second_order(|e| {
-            sum(self.terms[e].iter().map(|&(factor, a, b)| {
-                factor
-                    * match a == b {
-                        true => point(2.0) * around[a] * v[a],
-                        false => around[a] * v[b] + around[b] * v[a],
-                    }
-            }))
+    /// are no larger than `sizes`.
+    fn norm_of_image(&self, sizes: &[f64], v: &[f64]) -> Vec<f64> {
+        let turned = self.terms.iter().map(|terms| {
+            let each = terms
+                .iter()
+                .map(|&(factor, a, b)| factor.mag() * (sizes[a] * v[b] + sizes[b] * v[a]));
+            round_up(each.sum(), terms.len() + 5)
         });
-        self.image(&turned, &v).iter().map(|x| x.mag()).collect()
+        self.sizes(&turned.collect::<Vec<_>>(), &v[..self.middle.centre.len()])
     }
 
     /// How fast something changes with the right-hand side of an equation, over all figures, of which these are the derivatives by the unknowns.
@@ -304,10 +318,10 @@ impl Family {
     fn more(&self) -> Vec<f64> {
         let m = self.middle.centre.len();
         let all = self.differences.len();
-        let most = |x: &Interval| x.mag();
+        let most = |y: &f64| y.abs() * (1.0 + 4.0 * f64::EPSILON);
         let applied: Vec<f64> = self.applied.iter().map(most).collect();
-        let defect: Vec<f64> = self.defect.iter().map(most).collect();
-        let sizes: Vec<f64> = self.around.iter().map(most).collect();
+        let defect = &self.defect;
+        let sizes: Vec<f64> = self.around.iter().map(|x| x.mag()).collect();
         let terms = self.terms.iter().map(Vec::len).max().unwrap_or(0);
         let up = 1.0 + (4 * m + 4 * terms + 20) as f64 * f64::EPSILON;
         let movers = self.movers();
@@ -373,9 +387,9 @@ impl Family {
     fn movers(&self) -> Vec<Vec<u64>> {
         let m = self.middle.centre.len();
         let words = m.div_ceil(64);
-        let all_of = |row: &[Interval], sets: &[Vec<u64>]| {
+        let all_of = |row: &[f64], sets: &[Vec<u64>]| {
             let mut all = vec![0; words];
-            let led = row.iter().zip(sets).filter(|(x, _)| **x != point(0.0));
+            let led = row.iter().zip(sets).filter(|(x, _)| **x != 0.0);
             led.for_each(|(_, set)| join(&mut all, set));
             all
         };
@@ -421,7 +435,7 @@ impl Family {
         let missed: Vec<Interval> = missed
             .map(|(e, right)| *right - homotopy.left_side(e, at))
             .collect();
-        let sizes: Vec<f64> = self.image(&missed, &[]).iter().map(|x| x.mag()).collect();
+        let sizes: Vec<f64> = self.image(&missed, &[])?.iter().map(|x| x.mag()).collect();
         let norm = point(greatest_part(&sizes, &self.weights));
         let norm = norm / (point(1.0) - point(self.contraction));
         let bounds = self.weights.iter().map(|&s| (norm * point(s)).sup());
@@ -431,8 +445,8 @@ impl Family {
         let seen = |end: Option<usize>| {
             end.map_or(point(0.0), |i| place[i] - point(self.middle.centre[i]))
         };
-        let between: Vec<Interval> = all
-            .map(|(&[a, b], around)| around.convex_hull(seen(a) - seen(b)))
+        let between: Vec<f64> = all
+            .map(|(&[a, b], around)| around.convex_hull(seen(a) - seen(b)).mag())
             .collect();
         for _ in 0..TIMES {
             let image = self.norm_of_image(&between, &bounds);
@@ -450,7 +464,9 @@ impl Family {
             .iter()
             .zip(&self.left)
             .map(|(right, left)| *right - *left);
-        let linear = self.image(&grown.collect::<Vec<_>>(), &[]);
+        let Some(linear) = self.image(&grown.collect::<Vec<_>>(), &[]) else {
+            return false;
+        };
         let seen =
             |end: Option<usize>| end.map_or(point(0.0), |i| at[i] - point(self.middle.centre[i]));
         let all = self.differences.iter().zip(&linear).zip(&self.only);
@@ -535,6 +551,19 @@ fn join(all: &mut [u64], set: &[u64]) {
 
 fn sums(a: &[Interval], b: &[Interval]) -> Vec<Interval> {
     a.iter().zip(b).map(|(a, b)| *a + *b).collect()
+}
+
+/// The sum of products of entries, taken as `of` says, with numbers, as many as there are: in four sums, each fused.
+fn dot(row: &[f64], numbers: &[f64], of: impl Fn(f64) -> f64) -> f64 {
+    let mut lanes = [0.0; 4];
+    let [(rows, row), (all, rest)] = [row, numbers].map(|x| x.as_chunks::<4>());
+    for (row, numbers) in rows.iter().zip(all) {
+        for k in 0..4 {
+            lanes[k] = of(row[k]).mul_add(numbers[k], lanes[k]);
+        }
+    }
+    let rest: f64 = row.iter().zip(rest).map(|(&x, y)| of(x) * y).sum();
+    lanes.iter().sum::<f64>() + rest
 }
 
 fn sum(terms: impl Iterator<Item = Interval>) -> Interval {
