@@ -13,8 +13,8 @@ use std::time::Instant;
 ///
 /// A random complex figure with the same constraints has dimensions of its own. Loops of complex dimensions make other
 /// figures with the same dimensions of it, every path proved (unless --float), until there are as many as a proved
-/// bound allows or no loop finds another one. Solutions of equations without points are first led there from powers of the unknowns,
-/// as many as the product of the degrees, in floats; each is proved. `krawl complex FILE --template T` then takes all to any dimensions.
+/// bound allows or no loop finds another one. Solutions of equations without points are first led there from equations of the
+/// same degrees whose solutions are known, in floats; each is proved. `krawl complex FILE --template T` then takes all to any dimensions.
 #[derive(clap::Args)]
 #[command(after_long_help = "\
 Examples:

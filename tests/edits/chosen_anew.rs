@@ -38,6 +38,19 @@ fn an_arm_reaches_as_far_as_it_is_long() {
     }
 }
 
+/// A distance goes by the names of its points, whatever else is between these; what has no distance needs its kind in front only
+/// where there are two.
+#[test]
+fn a_name_without_a_kind_is_a_distance() {
+    let text = "dimension = 2\n[points]\nA = [0, 0]\nB = [3, 1]\nC = [3, 4]\n[constraints]\n\
+                distances = [[\"A\", \"B\", 3.2]]\ndx = [[\"A\", \"B\", 3], [\"A\", \"C\", 3]]\ndy = [[\"A\", \"B\", 1]]\n";
+    let problem = Problem::parse_loosely(text, "test").unwrap();
+    let find = |name: &str| Setting::find(&problem, name);
+    assert_eq!((find("A-B").unwrap(), find("B-A").unwrap()), (0, 0));
+    assert_eq!((find("dx:A-B").unwrap(), find("A-C").unwrap()), (1, 2));
+    assert_eq!(find("dy:A-B").unwrap(), 3);
+}
+
 /// A figure is never claimed for a value that no figure has.
 #[test]
 fn an_arm_does_not_reach_further() {
@@ -153,6 +166,18 @@ fn chains_reach_no_further_than_they_are_long() {
             "{low:?} {text}"
         );
         assert!(high.inf() <= most + 1e-9, "{high:?} {text}");
+        // That none goes further is said whatever is held.
+        let bounds = range
+            .reach
+            .each_ref()
+            .map(|one| one.as_ref().map(|r| r.bound));
+        let near = |bound: krawl::interval::Interval, x: f64| (bound.mid() - x).abs() < 1e-12;
+        assert!(near(bounds[1].unwrap(), most), "{bounds:?} {text}");
+        let is_told = match bounds[0] {
+            Some(bound) => near(bound, least),
+            None => least < 1e-12,
+        };
+        assert!(is_told, "{bounds:?} {text}");
         for (figure, value) in [(&range.low_figure, low), (&range.high_figure, high)] {
             for (k, length) in number.iter().enumerate() {
                 assert!((apart(figure, k, k + 1) - length).abs() < 1e-9, "{text}");

@@ -195,6 +195,26 @@ fn katsura_5_is_told_by_two_searches() {
     assert_eq!(found.len(), 16);
 }
 
+/// The eigenvalues 3 and 3 ± √3 of a matrix are as many as the bound of the groups of unknowns allows, where the product of the degrees is 8.
+#[test]
+fn a_matrix_has_no_more_eigenvalues_than_rows() {
+    let problem = Problem::read("docs/examples/eigenvalues.toml").unwrap();
+    let lowered = krawl::complex::lower(&problem).unwrap();
+    assert_eq!(lowered.bound.as_ref().unwrap().count, 3);
+    let fibre = krawl::complex::fill(&lowered.system, &Default::default()).unwrap();
+    let template = krawl::complex::Template::new("eigenvalues", fibre);
+    let solutions = krawl::complex::solve(&lowered, &template, &Default::default());
+    assert_eq!(solutions.status, krawl::complex::Status::Complete);
+    let (mut found, _) = real(&problem);
+    found.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    let roots = [3.0 - 3f64.sqrt(), 3.0, 3.0 + 3f64.sqrt()];
+    assert!(near(
+        &found.iter().map(|one| one[0]).collect::<Vec<_>>(),
+        &roots
+    ));
+    assert_eq!(solutions.real().count(), 3);
+}
+
 /// From powers of the unknowns, or products of linear functions of groups of them, as many paths as the Bézout numbers say come to all
 /// solutions of a random instance; the others go to infinity. Noon-3's number is that published, a matrix has as many eigenvalues as rows, and
 /// the others are those of eliminating by hand.

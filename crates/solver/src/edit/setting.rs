@@ -55,7 +55,7 @@ pub enum SettingError {
     },
     /// More than one has.
     #[error(
-        "the name `{0}` may mean more than one dimension: rename the points, without `-` in their names"
+        "the name `{0}` may mean more than one dimension: put the kind in front, as in `dx:A-B`, or rename points that have `-` in their names"
     )]
     Ambiguous(String),
     /// Not a decimal.
@@ -428,8 +428,11 @@ fn find(problem: &Problem, name: &str) -> Result<usize, SettingError> {
                 is(a, b) || is(b, a)
             }
             Some(_) => {
+                // Without a kind a name is a distance's, if there is one: distances come first.
+                let is_open = found.is_none_or(|index| index >= problem.distances.len());
                 let is = |own: &str| {
-                    own == plain || own.split_once(':').is_some_and(|(_, items)| items == name)
+                    let items = own.split_once(':').filter(|_| is_open);
+                    own == plain || items.is_some_and(|(_, items)| items == name)
                 };
                 is(&problem.derived_name(index))
                     || named_by_lines(problem, index).is_some_and(|own| is(&own))
