@@ -6,7 +6,7 @@
 //! ```
 //!
 //! A row is one run from the equations to the proved set, on all processors: *fill* finds the solutions of a random instance,
-//! in floats from powers of the unknowns, each proved; *paths* takes each of them along a proved path to the system. Steps are
+//! in floats from equations of the same degrees, each proved; *paths* takes each of them along a proved path to the system. Steps are
 //! tubes of these paths, those tried in vain with them. PHCpack (`phc`), and Macaulay2 (`M2`) in floats and certified, take the
 //! same equations from nothing, where they are installed; they use one processor.
 //!

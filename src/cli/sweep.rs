@@ -127,7 +127,7 @@ fn drive(arguments: &Arguments, vary: &str, ends: [&str; 2]) -> Result<u8, Refus
     let driven = index.checked_sub(problem.distances.len());
     if step > MOST_TURN.into() && driven.is_some_and(|c| problem.constraints[c].kind == "turns") {
         return Err(in_file(file)(format!(
-            "{vary} turns by {step} degrees from one frame to the next, and at most by {MOST_TURN} it may: ask for more `--frames`"
+            "{vary} turns by {step} degrees from one frame to the next; at most {MOST_TURN} are allowed: ask for more `--frames`"
         ))
         .into());
     }

@@ -46,7 +46,7 @@ pub struct Search {
     seed: u64,
     /// Stop after so many ways in a row that find nothing new
     ///
-    /// [default: 10; 50 for equations of one's own while there are fewer solutions than the product of their degrees]
+    /// [default: 10; 50 for equations of one's own while there are fewer solutions than the bound]
     #[arg(long, value_name = "N")]
     patience: Option<usize>,
     /// Stop when there are so many, up to signs of axes
@@ -206,7 +206,7 @@ fn summary(problem: &Problem, lowered: &Lowered, fibre: &Fibre, seconds: f64) ->
     let mut text = format!("{}: {full}\n", problem.name);
     if let Some(led) = fibre.led {
         text += &format!(
-            "{} from powers of the unknowns in floats, {} of them to infinity\n",
+            "{} from equations of the same degrees in floats, {} of them to infinity\n",
             counted(led.paths, "path"),
             led.infinite
         );

@@ -6,7 +6,7 @@ use super::edit::{behind, edit_in_words, limit_in_words, short, write_moved};
 use super::measured::{Measures, Placed};
 use crate::edit::{Edited, End, Ending, Moved, Range, Sweep};
 use crate::interval::{Bound, Interval};
-use crate::problem::{Problem, list};
+use crate::problem::Problem;
 use crate::remarks::Reach;
 
 /// The ranges of dimensions as a table.
@@ -91,25 +91,20 @@ pub fn ranges_to_table(problem: &Problem, ranges: &[Range], moved: Moved) -> Str
 /// What no figure goes beyond, however it moves.
 fn reach_in_words(problem: &Problem, index: usize, reach: &Reach) -> String {
     let name = problem.dimension_name(index);
-    let pairs = reach.way.windows(2).filter_map(|pair| {
+    let pairs = reach.way.windows(2).map(|pair| {
         let mut distances = problem.distances.iter();
-        let known = distances
-            .position(|d| d.points == [pair[0], pair[1]] || d.points == [pair[1], pair[0]]);
-        known.map(|index| problem.distance_name(index))
+        let is_it = |ends: [usize; 2]| pair.iter().all(|p| ends.contains(p));
+        let known = distances.position(|distance| is_it(distance.points));
+        problem.distance_name(known.expect("a way goes along distances"))
     });
     let mut pairs: Vec<String> = pairs.collect();
     let longest = reach.longest.map(|place| pairs.remove(place));
-    let others = list(&pairs, 8);
-    let [is, are] = match pairs.len() {
-        1 => ["is", ""],
-        _ => ["are", " together"],
-    };
     let bound = certain_digits(reach.bound);
     let why = match longest {
-        Some(longest) => format!("at least: {longest} alone is longer than {others}{are} by that"),
-        None => format!("at most: {others} {is} no longer{are}"),
+        Some(longest) => format!("at least {bound}: {longest} - {}", pairs.join(" - ")),
+        None => format!("at most {bound}: {}", pairs.join(" + ")),
     };
-    format!("However the rest moves, {name} is {bound} {why}, proved.\n")
+    format!("However the rest moves, {name} is {why}, proved.\n")
 }
 
 fn value_of(end: &End, beyond: &str, back: Bound) -> String {

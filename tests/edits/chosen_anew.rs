@@ -38,6 +38,19 @@ fn an_arm_reaches_as_far_as_it_is_long() {
     }
 }
 
+/// What is left out counts as met within a tolerance: figures go beyond what the others would allow, so nothing is said of that.
+#[test]
+fn what_is_left_out_bounds_nothing() {
+    let text = "dimension = 2\n[points]\nA = [0, 0]\nB = [4, 0]\nC = [4, 3]\nD = [0, 3]\n[constraints]\n\
+                distances = [[\"A\", \"B\", 4], [\"B\", \"C\", 3], [\"C\", \"D\", 4], [\"D\", \"A\", 3], \
+                [\"A\", \"C\", 5], [\"B\", \"D\", 5]]\n";
+    let (problem, mut session) = session(text);
+    let index = Setting::find(&problem, "A-B").unwrap();
+    let range = session.range(index, &mut Control::default());
+    assert!(!range.account.left_out.is_empty());
+    assert_eq!(range.reach, [None, None]);
+}
+
 /// A distance goes by the names of its points, whatever else is between these; what has no distance needs its kind in front only
 /// where there are two.
 #[test]
@@ -171,10 +184,10 @@ fn chains_reach_no_further_than_they_are_long() {
             .reach
             .each_ref()
             .map(|one| one.as_ref().map(|r| r.bound));
-        let near = |bound: krawl::interval::Interval, x: f64| (bound.mid() - x).abs() < 1e-12;
-        assert!(near(bounds[1].unwrap(), most), "{bounds:?} {text}");
+        let is_near = |bound: krawl::interval::Interval, x: f64| (bound.mid() - x).abs() < 1e-12;
+        assert!(is_near(bounds[1].unwrap(), most), "{bounds:?} {text}");
         let is_told = match bounds[0] {
-            Some(bound) => near(bound, least),
+            Some(bound) => is_near(bound, least),
             None => least < 1e-12,
         };
         assert!(is_told, "{bounds:?} {text}");

@@ -33,10 +33,10 @@ pub(super) fn all(problem: &Problem, options: &Options) -> Option<Result<Complet
     if !problem.points.is_empty() || problem.constraints.len() != problem.objects.len() {
         return None;
     }
+    let begin = Instant::now();
     let lowered = complex::lower(problem).ok()?;
     let bound = lowered.bound.as_ref()?;
     (bound.count <= MOST && bound.counts_curves).then_some(())?;
-    let begin = Instant::now();
     let left = || {
         let time = options.time;
         time.map(|time| time.saturating_sub(begin.elapsed()))
@@ -106,7 +106,7 @@ fn real(
     };
     let filling = Filling {
         enough: lowered.enough(),
-        // Where paths from powers of the unknowns do not come to all, the search of boxes does.
+        // Where paths from known solutions do not come to all, the search of boxes does.
         patience: 0,
         ways: within,
         ..Filling::default()

@@ -10,6 +10,8 @@ use std::collections::HashMap;
 
 /// So few unknowns are cut into groups in all ways; of more one at a time goes to another group, as long as that makes the number less.
 const FEW: usize = 7;
+/// More are one group: to look for others would take long.
+const MANY: usize = 32;
 /// A way to cut them is passed over where more coefficients than this would have to be known at a time.
 const MOST: usize = 1 << 14;
 
@@ -25,11 +27,14 @@ pub struct Groups {
 }
 
 impl Groups {
-    /// The groups with the least number that is found, as few of them as it is found with. `degrees`: of each equation the degree in the
+    /// The groups with the least number that is found; where some have the same, the fewest. `degrees`: of each equation the degree in the
     /// unknowns that are marked. `None`: the equations are not as many as the unknowns, or no number is greater than 0 and small enough to
     /// be told.
     pub fn least(n: usize, degrees: impl Fn(&[bool]) -> Vec<usize>) -> Option<Self> {
         let new = |of| Groups::new(of, &degrees);
+        if n == 0 || n > MANY {
+            return new(vec![0; n]);
+        }
         let mut best = new(vec![0; n]);
         let is_less = |new: &Groups, best: &Option<Groups>| {
             best.as_ref().is_none_or(|best| new.count < best.count)
@@ -89,14 +94,20 @@ impl Groups {
         all.into_iter().map(|(_, chosen)| chosen).collect()
     }
 
-    fn new(of: Vec<usize>, degrees: impl Fn(&[bool]) -> Vec<usize>) -> Option<Self> {
+    fn new(mut of: Vec<usize>, degrees: impl Fn(&[bool]) -> Vec<usize>) -> Option<Self> {
+        // A group may have been left by its last unknown.
+        let mut used = of.clone();
+        used.sort_unstable();
+        used.dedup();
+        of.iter_mut()
+            .for_each(|group| *group = used.partition_point(|other| other < group));
         let sizes = sizes(&of);
         let in_group = |group| {
             let marked: Vec<bool> = of.iter().map(|&other| other == group).collect();
             degrees(&marked)
         };
         let columns: Vec<Vec<usize>> = (0..sizes.len()).map(in_group).collect();
-        let equations = columns.first()?.len();
+        let equations = degrees(&vec![true; of.len()]).len();
         let row = |e: usize| columns.iter().map(|column| column[e]).collect();
         let degrees: Vec<Vec<usize>> = (0..equations).map(row).collect();
         let count = coefficient(&degrees, &sizes).filter(|&count| count > 0)?;
@@ -170,6 +181,29 @@ mod tests {
             assert_eq!(groups.count, n as u128);
             assert!(groups.of[..n].iter().all(|group| *group != groups.of[n]));
         }
+    }
+
+    #[test]
+    fn groups_that_are_left_are_none() {
+        // x_i x_{i+1} + x_{i+7} = 1, each unknown in three equations.
+        let n = 20;
+        let monomials: Vec<[Vec<usize>; 2]> = (0..n)
+            .map(|i| [vec![i, (i + 1) % n], vec![(i + 7) % n]])
+            .collect();
+        let equations: Vec<Vec<&[usize]>> = monomials
+            .iter()
+            .map(|two| two.iter().map(|one| &one[..]).collect())
+            .collect();
+        let equations: Vec<&[&[usize]]> = equations.iter().map(|one| &one[..]).collect();
+        let groups = of(n, &equations);
+        assert!((0..after(&groups.of)).all(|group| groups.of.contains(&group)));
+    }
+
+    #[test]
+    fn what_tells_all_unknowns_has_one_solution() {
+        let groups = Groups::least(0, |_| Vec::new()).unwrap();
+        assert_eq!(groups.count, 1);
+        assert!(Groups::least(0, |_| vec![0]).is_none());
     }
 
     #[test]

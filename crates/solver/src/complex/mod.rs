@@ -3,7 +3,7 @@
 //! A complex unknown is two real ones and a complex quadratic equation two real ones ([`system`]); so the tracker that
 //! follows real paths follows complex ones too, tube by tube, and no two paths can merge or swap. A *template* is a
 //! generic instance of a problem's equations with its solutions: one random figure, and what loops of complex
-//! dimensions make of it ([`monodromy`]), or, of equations without points, what paths in floats from powers of the unknowns
+//! dimensions make of it ([`monodromy`]), or, of equations without points, what paths in floats from equations of the same degrees
 //! come to, each proved. Its solutions are then taken to the dimensions wanted ([`solve()`]).
 //!
 //! Where a bound is known the number of solutions proves that they are all, however they were found: then paths may be

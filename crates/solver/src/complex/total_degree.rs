@@ -34,15 +34,19 @@ use super::vector::Z;
 use crate::elimination::invert;
 use crate::equations::Form;
 use crate::interval::DoubleDouble;
+use crate::rational::Rational;
 use crate::system::Term;
 use std::collections::HashSet;
 use std::f64::consts::TAU;
 
 /// More paths are not followed: loops of parameters then find the solutions one by one.
 const MOST_PATHS: usize = 50_000;
-/// Beyond this size of an unknown a path goes to infinity: values of equations are unknowns too, and larger than what they
-/// are values of.
-const RADIUS: f64 = 1e6;
+/// Beyond this size a path goes to infinity, the size being taken to the degree of the equations, as their values are unknowns too, but no
+/// further than is well within floats' digits.
+const RADIUS: f64 = 1e2;
+const BOUNDS_OF_RADIUS: [f64; 2] = [1e6, 1e12];
+/// Where paths are lost all are led again, on another curve of s: so often at most.
+const CURVES: usize = 3;
 
 /// Before this t no path goes to infinity, for almost all curves of s: one that is lost far away there is not at its end.
 const LATE: f64 = 0.9;
@@ -320,6 +324,7 @@ impl Leading {
             let members = degrees.free.iter().zip(&groups.of);
             let members = members.filter(|(_, own)| **own == group);
             let members: Vec<usize> = members.map(|(&u, _)| u).collect();
+            // From −9 to 9, and not 0.
             let draw = |_: &usize| match random.bits() % 18 {
                 k @ 0..9 => k as i32 - 9,
                 k => k as i32 - 8,
@@ -430,24 +435,39 @@ pub fn lead(system: &System, fibre: &mut Fibre, random: &mut Random, ways: &Ways
     let proved = prove_all(&leading.system, &segment(from, from, None), &starts, ways);
     let starts: Vec<SolutionBox> = proved.into_iter().flatten().collect();
     let starts: Vec<&SolutionBox> = starts.iter().collect();
+    let each = degrees.groups.degrees.iter();
+    let degree = each.map(|of| of.iter().sum::<usize>()).max()?;
+    let [least, most] = BOUNDS_OF_RADIUS;
     let ways = Ways {
         proved: false,
-        radius: RADIUS,
+        radius: RADIUS.powi(degree as i32).clamp(least, most),
         ..*ways
     };
     let [mut to, mut bow] = [from.clone(), vec![zero(); n]];
-    (to[n - 1], bow[n - 1]) = (Exact::whole(1).parts(), random.complex().parts());
-    let rights = segment(from, &to, Some(&bow));
-    let (ends, took) = follow_all(&leading.system, &rights, &starts, &ways);
-    fibre.effort.add(took);
-    let (infinite, came) = enter(system, fibre, ends, &ways);
-    let stopped = paths - infinite - came;
-    fibre.failed.0 = stopped;
-    Some(Led {
-        paths,
-        infinite,
-        stopped,
-    })
+    to[n - 1] = Exact::whole(1).parts();
+    // Far from the real line, where leading coefficients of both may cancel.
+    let up = Exact {
+        re: Rational::zero(),
+        im: Rational::from_integer(2.into()),
+    };
+    let mut led = Led::default();
+    for _ in 0..CURVES {
+        bow[n - 1] = random.complex().plus(&up).parts();
+        let rights = segment(from, &to, Some(&bow));
+        let (ends, took) = follow_all(&leading.system, &rights, &starts, &ways);
+        fibre.effort.add(took);
+        let (infinite, came) = enter(system, fibre, ends, &ways);
+        led = Led {
+            paths,
+            infinite,
+            stopped: paths - infinite - came,
+        };
+        if led.stopped == 0 || ways.is_over() {
+            break;
+        }
+    }
+    fibre.failed.0 = led.stopped;
+    Some(led)
 }
 
 /// Enters the ends of all paths. Tells how many went to infinity, and to how many solutions the others came.

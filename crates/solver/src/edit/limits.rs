@@ -92,6 +92,11 @@ impl Session {
         let ends = [low, high].map(|goal| self.end(index, goal, control));
         let [(low, low_figure, mut account), (high, high_figure, other)] = ends;
         account.join(&other);
+        // What is left out may be missed by a little.
+        let reach = match account.left_out.is_empty() {
+            true => reach,
+            false => [None, None],
+        };
         Range {
             index,
             value,

@@ -25,7 +25,7 @@ const MOST_LEGS: usize = 12;
 /// reached, and where others are chosen.
 const BEFORE: [f64; 5] = [0.98, 0.999, 0.99999, 0.9, 0.6];
 /// A leg that goes less than this part of the way so far beyond the last one's end is the last.
-const LEAST_GAIN: f64 = 1e-3;
+const LEAST_GAIN: f64 = 1e-5;
 
 impl Parts {
     /// Where an edit ended before its dimensions were met, and coordinates are held or constraints left out: the same edit with others held
