@@ -1,4 +1,4 @@
-//! Products of large dense matrices, by nalgebra, which leaves them to the crate matrixmultiply.
+//! Products of large dense matrices, by the crate matrixmultiply.
 //!
 //! Up to [`LARGE`] rows the kernels beside this file are used, and nothing here. From there on most of a
 //! run's time in the full space is spent on one product of dense matrices per test, which needs blocking for
@@ -12,7 +12,6 @@
 //! processor are last digits, and so the lengths of tubes.
 
 use super::matrix::{LANE, Matrix, Sparse, Vector};
-use nalgebra::{DMatrixView, DMatrixViewMut};
 use rayon::prelude::*;
 use std::sync::Arc;
 
@@ -128,19 +127,38 @@ impl Part {
         let range = start..n.min(start + WIDTH);
         minus_sparse(y, s, values, range.clone(), &mut self.columns);
         sum_abs(&self.columns, &u[range.clone()], &mut self.other);
-        let stride = a.lanes() * LANE;
-        let factor = |columns: std::ops::Range<usize>| {
-            let entries = &a.entries()[columns.start * stride..columns.end * stride];
-            DMatrixView::from_slice_with_strides(entries, n, columns.len(), 1, stride)
-        };
-        let out = self.columns.data_mut().as_flattened_mut();
-        DMatrixViewMut::from_slice_with_strides_mut(out, n, range.len(), 1, stride).gemm(
-            1.0,
-            &factor(0..n),
-            &factor(range.clone()),
-            1.0,
-        );
+        add_product(a, range.clone(), &mut self.columns);
         sum_abs(&self.columns, &u[range], &mut self.square);
+    }
+}
+
+/// Adds these columns of A A to the first columns of `out`, the matrix A being square.
+fn add_product(a: &Matrix, range: std::ops::Range<usize>, out: &mut Matrix) {
+    let (n, stride) = (a.rows(), a.lanes() * LANE);
+    let entries = a.entries();
+    let factor = &entries[range.start * stride..range.end * stride];
+    let out = &mut out.data_mut().as_flattened_mut()[..range.len() * stride];
+    assert!(entries.len() == n * stride && n <= stride);
+    let (rows, columns) = (1, stride as isize);
+    // SAFETY: by the assertion and the slices above, each matrix has n rows and as many columns as are told of it, one after the other
+    // at this stride; what is written is borrowed alone.
+    unsafe {
+        matrixmultiply::dgemm(
+            n,
+            n,
+            range.len(),
+            1.0,
+            entries.as_ptr(),
+            rows,
+            columns,
+            factor.as_ptr(),
+            rows,
+            columns,
+            1.0,
+            out.as_mut_ptr(),
+            rows,
+            columns,
+        );
     }
 }
 
