@@ -56,7 +56,12 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
         let (text, code) = describe_sketches(&arguments.file, &arguments.which)?;
         return printed(&text, code);
     }
-    let problem = match input::read(&arguments.file, &arguments.which) {
+    let mut centres = String::new();
+    let read = input::load(&arguments.file, &arguments.which).and_then(|loaded| {
+        centres = loaded.imported().map_or(String::new(), stereocentres);
+        loaded.whole(&arguments.file)
+    });
+    let problem = match read {
         Ok(problem) => problem,
         Err(message) => {
             let loose = Loose::of(&arguments.file).ok_or_else(|| message.clone())?;
@@ -65,11 +70,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
             return Ok(exit_code(&loose.census, BAD_INPUT));
         }
     };
-    let mut text = describe(&problem, None);
-    if is_molecule {
-        let (imported, _) = input::import(&arguments.file, &arguments.which)?;
-        text += &stereocentres(&imported);
-    }
+    let mut text = describe(&problem, None) + &centres;
     text += &remarks_in_words(&problem);
     let census = match problem.is_distances_only() {
         true => Census::default(),

@@ -72,9 +72,6 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
     let subjects = subjects.collect::<Result<Vec<Subject>, String>>()?;
     let named = [arguments.json.as_deref(), arguments.csv.as_deref()];
     let mut results = Results::open(&arguments.files, named, None, arguments.quiet)?;
-    if results.on_standard_output() > 1 {
-        return Err("only one of `--json` and `--csv` can go to standard output".to_owned());
-    }
     let folder = arguments.output.as_deref();
     if let Some(folder) = folder {
         fs::create_dir_all(folder).map_err(in_file(folder))?;

@@ -48,11 +48,7 @@ impl Source {
 /// Reads a problem file, or standard input for `-`, or a sketch or molecule of another program's file. The text of the
 /// error says what is wrong, and where.
 pub fn read(file: &Path, which: &Which) -> Result<Problem, String> {
-    let loaded = load(file, which)?;
-    if is_sketch(file) {
-        return completed(&loaded.problem).map_err(in_file(file));
-    }
-    loaded.fault.map_or(Ok(loaded.problem), Err)
+    load(file, which)?.whole(file)
 }
 
 /// What another program's file is in.
@@ -300,6 +296,19 @@ pub fn bytes(file: &Path) -> Result<Vec<u8>, String> {
 }
 
 impl Loaded {
+    /// What was read, with as many equations as unknowns. The text of the error says why it has not.
+    pub fn whole(self, file: &Path) -> Result<Problem, String> {
+        if is_sketch(file) {
+            return completed(&self.problem).map_err(in_file(file));
+        }
+        self.fault.map_or(Ok(self.problem), Err)
+    }
+
+    /// The sketch or molecule of another program that it is.
+    pub fn imported(&self) -> Option<&Imported> {
+        self.imported.as_ref().map(|(imported, _)| imported)
+    }
+
     /// The same, where `any` figure is wanted whatever its signs are.
     pub fn with_any_signs(mut self, any: bool) -> Self {
         let imported = self.imported.as_mut().map(|(imported, _)| imported);

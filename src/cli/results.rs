@@ -27,19 +27,20 @@ impl<'a> Results<'a> {
         let pictures = pictures
             .into()
             .map(|pictures| pictures.places(read.clone()));
-        if [json, csv] == [Some(Path::new("-")); 2] {
-            return Err(
-                "`--json -` and `--csv -` both write to standard output: name a file for one"
-                    .to_owned(),
-            );
-        }
-        Ok(Results {
+        let results = Results {
             json: beside(read.clone(), json)?,
             csv: beside(read, csv)?,
             pictures: pictures.transpose()?.unwrap_or_default(),
             quiet,
             is_written: true,
-        })
+        };
+        match results.on_standard_output() {
+            0 | 1 => Ok(results),
+            _ => Err(
+                "only one result can go to standard output, `-`: name files for the others"
+                    .to_owned(),
+            ),
+        }
     }
 
     /// How many results go to standard output.

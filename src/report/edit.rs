@@ -113,7 +113,9 @@ pub fn edit_in_words(problem: &Problem, edited: &Edited) -> String {
                 scope => format!("{scope}, "),
             };
             let near = match edited.t.1 >= 1.0 {
-                true => " Whether what was wanted is beyond that is not decided: it is too near.",
+                true => {
+                    " Whether what was wanted is beyond that is not decided: it is too near to the limit."
+                }
                 false => "",
             };
             format!(
@@ -232,7 +234,7 @@ pub fn limit_in_words(problem: &Problem, limit: &Limit) -> String {
     )
 }
 
-/// A length in few digits, for sentences: no more than tell it from others, but thirteen where its bounds are further apart.
+/// A length for sentences: with thirteen digits, or as many more as it takes to come between its bounds.
 pub(super) fn short(x: Interval) -> String {
     let digits = |k: usize| format!("{:.k$e}", x.mid()).parse::<f64>().ok();
     let middle = (12..17).find_map(|k| digits(k).filter(|&y| x.contains(y)));

@@ -101,7 +101,10 @@ fn reach_in_words(problem: &Problem, index: usize, reach: &Reach) -> String {
     let longest = reach.longest.map(|place| pairs.remove(place));
     let bound = certain_digits(reach.bound);
     let why = match longest {
-        Some(longest) => format!("at least {bound}: {longest} - {}", pairs.join(" - ")),
+        Some(longest) => format!(
+            "at least {bound}: {longest} \u{2212} {}",
+            pairs.join(" \u{2212} ")
+        ),
         None => format!("at most {bound}: {}", pairs.join(" + ")),
     };
     format!("However the rest moves, {name} is {why}, proved.\n")

@@ -117,18 +117,6 @@ impl Decimal {
         }
     }
 
-    /// The same number without zeros at the end behind the point.
-    pub fn trimmed(self) -> Decimal {
-        let text = match self.text.contains('.') && !self.text.contains(['e', 'E']) {
-            true => self.text.trim_end_matches('0').trim_end_matches('.'),
-            false => &self.text,
-        };
-        Decimal {
-            text: text.to_owned(),
-            ..self
-        }
-    }
-
     /// The number with the other sign.
     pub fn negative(&self) -> Decimal {
         let text = self.text.strip_prefix('-');

@@ -271,9 +271,6 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
     let (files, named) = (&arguments.files, [arguments.json.as_deref(), None]);
     let results = Results::open(files, named, &arguments.pictures, arguments.quiet)?;
     output::refuse_read(files, arguments.cert.as_deref())?;
-    if results.on_standard_output() > 1 {
-        return Err("only one result can go to standard output".to_owned());
-    }
     // Before any file is begun, so that an interrupt leaves none behind.
     interrupt::flag();
     let cert = arguments.cert.as_deref().map(Beside::new).transpose()?;

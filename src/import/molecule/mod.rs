@@ -52,6 +52,7 @@ pub struct Places {
 }
 
 /// A molecule as it is read.
+#[derive(Default)]
 struct Molecule<'a> {
     name: String,
     atoms: Vec<(&'a str, [&'a str; 3], usize)>,
@@ -127,10 +128,7 @@ fn xyz<'a>(lines: &[&'a str]) -> Result<Vec<Molecule<'a>>, String> {
         all.push(Molecule {
             name: if name.is_empty() { "molecule" } else { name }.to_owned(),
             atoms,
-            bonds: None,
-            orders: Vec::new(),
-            details: Vec::new(),
-            notes: Vec::new(),
+            ..Molecule::default()
         });
     }
     Ok(all)
@@ -179,11 +177,8 @@ fn molfiles<'a>(lines: &[&'a str]) -> Result<Vec<Molecule<'a>>, String> {
         };
         let mut out = Molecule {
             name: lines[begin].trim().to_owned(),
-            atoms: Vec::new(),
             bonds: Some(Vec::new()),
-            orders: Vec::new(),
-            details: Vec::new(),
-            notes: Vec::new(),
+            ..Molecule::default()
         };
         if out.name.is_empty() {
             out.name = "molecule".to_owned();

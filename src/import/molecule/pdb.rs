@@ -187,14 +187,13 @@ impl<'a> Chain<'a> {
             }
             .to_owned(),
             bonds: (bonded.len() == self.atoms.len()).then_some(own),
-            orders: Vec::new(),
-            details: Vec::new(),
             atoms: self
                 .atoms
                 .iter()
                 .map(|atom| (atom.element, atom.coordinates, atom.line))
                 .collect(),
             notes,
+            ..Molecule::default()
         }
     }
 }

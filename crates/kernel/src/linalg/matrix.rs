@@ -22,6 +22,21 @@ fn lanes_for(len: usize) -> usize {
     }
 }
 
+/// a·b, of as many numbers each, in four interleaved sums of fused products.
+#[inline]
+pub fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let (a4, a1) = a.as_chunks::<LANE>();
+    let (b4, b1) = b.as_chunks::<LANE>();
+    let mut sums = [0.0; LANE];
+    for (a, b) in a4.iter().zip(b4) {
+        for i in 0..LANE {
+            sums[i] = a[i].mul_add(b[i], sums[i]);
+        }
+    }
+    let rest: f64 = a1.iter().zip(b1).map(|(x, y)| x * y).sum();
+    (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
+}
+
 /// A vector padded with zeros to whole lanes.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Vector {

@@ -22,7 +22,7 @@ pub use large::{LARGE, Workers};
 pub use least::{
     Linear, damped, decomposed, linearised, nearest, nearest_zero, scaled, shortest, weakest,
 };
-pub use matrix::{LANE, Matrix, Sparse, Vector};
+pub use matrix::{LANE, Matrix, Sparse, Vector, dot};
 pub use pivots::is_odd;
 pub use rank::extreme_pivots;
 pub use span::Span;

@@ -177,10 +177,12 @@ impl Surplus {
 
     /// Searches all figures, and tests them: those that were proved to miss a distance are no solutions.
     pub fn search(&self, options: &Options) -> Result<Complete, Unserved> {
-        // A certificate is read without what was left out.
         let mut used = self.problem.clone();
-        let all_of_them = self.used() + self.spare.len();
-        used.name += &format!(" (with {} of its {all_of_them} constraints)", self.used());
+        if options.cover {
+            // A certificate has nothing else that says so.
+            let given = self.used() + self.spare.len();
+            used.name += &format!(" (with {} of its {given} constraints)", self.used());
+        }
         let mut result = all(&used, options)?;
         let figures = result.solutions.iter();
         let figures: Vec<Vec<LeftOut>> =

@@ -11,9 +11,9 @@ use std::collections::HashMap;
 /// So few unknowns are cut into groups in all ways; of more one at a time goes to another group, as long as that makes the number less.
 const FEW: usize = 7;
 /// More are one group: to look for others would take long.
-const MANY: usize = 32;
+const MANY: usize = 64;
 /// A way to cut them is passed over where more coefficients than this would have to be known at a time.
-const MOST: usize = 1 << 14;
+const MOST: usize = 1 << 10;
 
 /// Groups of unknowns.
 #[derive(Debug, Clone, PartialEq)]
@@ -107,7 +107,7 @@ impl Groups {
             degrees(&marked)
         };
         let columns: Vec<Vec<usize>> = (0..sizes.len()).map(in_group).collect();
-        let equations = degrees(&vec![true; of.len()]).len();
+        let equations = columns.first().map_or_else(|| degrees(&[]).len(), Vec::len);
         let row = |e: usize| columns.iter().map(|column| column[e]).collect();
         let degrees: Vec<Vec<usize>> = (0..equations).map(row).collect();
         let count = coefficient(&degrees, &sizes).filter(|&count| count > 0)?;
@@ -129,27 +129,33 @@ fn sizes(of: &[usize]) -> Vec<usize> {
 
 /// The coefficient of Π_j X_j^(sizes j) in Π_i Σ_j degrees_ij X_j. `None`: it is beyond all numbers, or too much work.
 fn coefficient(degrees: &[Vec<usize>], sizes: &[usize]) -> Option<u128> {
-    // The coefficients of products of X_j with exponents up to the sizes, the first group's exponent counting by 1.
+    if sizes.iter().sum::<usize>() != degrees.len() {
+        return Some(0);
+    }
     let all = sizes.iter().try_fold(1usize, |all, size| {
         Some(all * (size + 1)).filter(|&all| all <= MOST)
     })?;
+    // The coefficient of each product of X_j with exponents up to the sizes, the first group's exponent counting by 1, in the product of as
+    // many equations as the exponents add up to.
     let mut coefficients = vec![0u128; all];
     coefficients[0] = 1;
-    for row in degrees {
-        let mut next = vec![0u128; all];
-        for (place, &now) in coefficients.iter().enumerate().filter(|(_, now)| **now > 0) {
-            let mut step = 1;
-            for (&degree, size) in row.iter().zip(sizes) {
-                if place / step % (size + 1) < *size {
-                    let sum = &mut next[place + step];
-                    *sum = now.checked_mul(degree as u128)?.checked_add(*sum)?;
-                }
-                step *= size + 1;
+    let mut exponents = vec![0; sizes.len()];
+    for place in 1..all {
+        let full = (0..)
+            .take_while(|&group| exponents[group] == sizes[group])
+            .count();
+        exponents[..full].fill(0);
+        exponents[full] += 1;
+        let row = &degrees[exponents.iter().sum::<usize>() - 1];
+        let mut step = 1;
+        for ((&exponent, &degree), size) in exponents.iter().zip(row).zip(sizes) {
+            if exponent > 0 {
+                let more = coefficients[place - step].checked_mul(degree as u128)?;
+                coefficients[place] = coefficients[place].checked_add(more)?;
             }
+            step *= size + 1;
         }
-        coefficients = next;
     }
-    // With other than as many equations as unknowns nothing is left here.
     coefficients.last().copied()
 }
 

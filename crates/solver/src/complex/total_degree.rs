@@ -13,8 +13,8 @@
 //! parameters on the right, as all others are, and so are powers of the unknowns.
 //!
 //! Where the unknowns are cut into groups in which degrees are lower ([`groups`]), q_k is a product of linear functions, each
-//! of the unknowns of one group, as many for each group as p_k's degree in it (the same, 8.4.3). A zero of all q makes one factor
-//! of each zero, for each group as many as it has unknowns.
+//! of the unknowns of one group, as many for each group as p_k's degree in it (the same, 8.4.3). At a zero of all q one factor of
+//! each is zero, for each group as many as it has unknowns.
 //!
 //! Paths are followed in floats: each solution that they come to is proved by itself, and that these are all by their number alone.
 //!
@@ -225,7 +225,7 @@ fn near([re, im]: &Parameter) -> Z {
 }
 
 /// Of what the equations at the start are made.
-enum Start {
+enum StartSystem {
     /// Of each free unknown a power is this number: the unknown, the power, the number.
     Roots(Vec<(usize, usize, Z)>),
     /// Of each equation one of these linear functions is zero.
@@ -241,9 +241,9 @@ struct Linear {
 }
 
 /// A root of a number, one of as many as the degree says.
-fn root(Z { re, im }: Z, degree: usize, turns: usize) -> Z {
-    let angle = im.hi.atan2(re.hi) + TAU * turns as f64;
-    let size = Z::new(re, im).norm_sqr().powf(0.5 / degree as f64);
+fn root(of: Z, degree: usize, turns: usize) -> Z {
+    let angle = of.im.hi.atan2(of.re.hi) + TAU * turns as f64;
+    let size = of.norm_sqr().powf(0.5 / degree as f64);
     let (sine, cosine) = (angle / degree as f64).sin_cos();
     Z::new((size * cosine).into(), (size * sine).into())
 }
@@ -254,7 +254,7 @@ fn equations(
     degrees: &Degrees,
     parameters: &[Parameter],
     random: &mut Random,
-) -> (Leading, Start) {
+) -> (Leading, StartSystem) {
     let mut leading = Leading {
         system: System {
             equations: Vec::new(),
@@ -303,8 +303,8 @@ fn equations(
     let n = leading.from.len();
     leading.system = leading.system.with_groups(&[vec![false; n]]);
     let start = match is_one {
-        true => Start::Roots(roots),
-        false => Start::Products(products),
+        true => StartSystem::Roots(roots),
+        false => StartSystem::Products(products),
     };
     (leading, start)
 }
@@ -366,12 +366,12 @@ impl Leading {
     }
 }
 
-impl Start {
+impl StartSystem {
     /// The zeros at the start: a value for each of the free unknowns.
     fn zeros(&self, degrees: &Degrees) -> Vec<Vec<Z>> {
         match self {
             // Every choice of a root for each unknown.
-            Start::Roots(roots) => {
+            StartSystem::Roots(roots) => {
                 let zero = |mut choice: usize| {
                     let of = roots.iter().map(|&(_, degree, right)| {
                         let turns = choice % degree;
@@ -382,7 +382,7 @@ impl Start {
                 };
                 (0..degrees.groups.count as usize).map(zero).collect()
             }
-            Start::Products(products) => {
+            StartSystem::Products(products) => {
                 let chosen = degrees.groups.chosen(|e, group| {
                     let linears = products[e].iter();
                     linears.filter(|linear| linear.group == group).collect()

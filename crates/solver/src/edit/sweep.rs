@@ -90,9 +90,17 @@ fn between(from: &Decimal, to: &Decimal, k: usize, n: usize) -> Decimal {
     let digits = 17 - top.log10().floor() as i32;
     let power = Rational::from_integer(BigInt::from(10)).pow(digits);
     let scaled = (exact * power).round().to_integer();
-    let text = format!("{scaled}e{}", -digits);
-    // Written without a power of ten.
-    let plain = |value: Decimal| value.plus(&0.into());
-    let value = text.parse().and_then(plain);
-    value.map_or_else(|_| from.clone(), Decimal::trimmed)
+    // Written without a power of ten, and without zeros at its end.
+    let scaled = scaled.to_string();
+    let kept = scaled.trim_end_matches('0');
+    let zeros = (scaled.len() - kept.len()) as i32;
+    let text = format!(
+        "{}e{}",
+        if kept.is_empty() { "0" } else { kept },
+        zeros - digits
+    );
+    let value = text
+        .parse::<Decimal>()
+        .and_then(|value| value.plus(&0.into()));
+    value.unwrap_or_else(|_| from.clone())
 }

@@ -92,12 +92,17 @@ pub(crate) fn reach(problem: &Problem, index: usize) -> [Option<Reach>; 2] {
             longest,
         }
     });
-    let most = there[to].map(|(bound, _)| Reach {
+    [least, around(&there, to)]
+}
+
+/// The shortest way to a point: no figure has these two further apart.
+fn around(ways: &[Option<(Interval, usize)>], to: usize) -> Option<Reach> {
+    let (bound, _) = ways[to]?;
+    Some(Reach {
         bound,
-        way: way_to(&there, to),
+        way: way_to(ways, to),
         longest: None,
-    });
-    [least, most]
+    })
 }
 
 /// Distances that are longer than the shortest way around.
@@ -109,8 +114,8 @@ pub(super) fn too_long(problem: &Problem) -> Vec<Remark> {
     }
     (0..problem.distances.len())
         .filter_map(|distance| {
-            let [_, most] = reach(problem, distance);
-            let Reach { bound, way, .. } = most?;
+            let [from, to] = problem.distances[distance].points;
+            let Reach { bound, way, .. } = around(&ways(problem, from, distance), to)?;
             let is_too_long = length(problem, distance).inf() > bound.sup();
             is_too_long.then_some(Remark::TooLong {
                 distance,

@@ -13,6 +13,7 @@ use crate::elimination::invert;
 use crate::equations::Form;
 use crate::interval::rounding::{gamma, in_range, round_up};
 use crate::interval::{Interval, around, hull, point};
+use crate::linalg::dot;
 use crate::system::Homotopy;
 use std::cell::OnceCell;
 
@@ -45,6 +46,8 @@ pub(super) struct Family {
     terms: Vec<Vec<Term>>,
     /// By Y, what each equation adds to each difference, a row for each difference: each rounded once.
     applied: Vec<f64>,
+    /// Bounds on their sizes.
+    sizes: Vec<f64>,
     /// I − Y J in the middle: bounds.
     defect: Vec<f64>,
     /// The left-hand sides in the middle.
@@ -160,9 +163,11 @@ impl Family {
                 a - b
             })
         });
-        let applied = applied.collect();
+        let applied: Vec<f64> = applied.collect();
+        let size = |y: &f64| y.abs() * (1.0 + 4.0 * f64::EPSILON);
         let mut family = Family {
             middle,
+            sizes: applied.iter().map(size).collect(),
             applied,
             terms,
             defect,
@@ -228,7 +233,7 @@ impl Family {
     }
 
     /// Of Y f + (I − Y J) u each difference; the unknowns' u come first, and where there are none that part is left out. `None`: what comes of
-    /// it is beyond all numbers.
+    /// it is beyond [`FAR`].
     ///
     /// With ŷ the rounded entries of a row, off by less than 2 u |ŷ|, and f between f̂ ± r, the sum of the products differs from that of ŷ f̂ as
     /// computed by at most Σ |ŷ| (r + γ (|f̂| + r)), γ for as many products and four more (Higham, section 3.1).
@@ -240,10 +245,10 @@ impl Family {
             .iter()
             .map(|f| f.rad() + gamma * (f.mid().abs() + f.rad()));
         let sizes: Vec<f64> = u.iter().take(m).map(|u| u.mag()).collect();
-        let bounds = self.sizes(&radii.collect::<Vec<_>>(), &sizes);
+        let bounds = self.bounds(&radii.collect::<Vec<_>>(), &sizes);
         let rows = self.applied.chunks(m.max(1)).zip(bounds);
         rows.map(|(row, bound)| {
-            let middle = dot(row, &middles, |y| y);
+            let middle = dot(row, &middles);
             let is_known = middle.abs() <= FAR && bound <= FAR;
             is_known.then(|| around(middle, bound))
         })
@@ -251,15 +256,15 @@ impl Family {
     }
 
     /// Bounds on |Y| f + |I − Y J| u for each difference, where no number is less than 0.
-    fn sizes(&self, f: &[f64], u: &[f64]) -> Vec<f64> {
+    fn bounds(&self, f: &[f64], u: &[f64]) -> Vec<f64> {
         let m = self.middle.centre.len();
         let rows = self.defect.chunks(m.max(1));
-        let from_middle: Vec<f64> = rows.map(|row| dot(row, u, |x| x)).collect();
-        let rows = self.differences.iter().zip(self.applied.chunks(m.max(1)));
+        let from_middle: Vec<f64> = rows.map(|row| dot(row, u)).collect();
+        let rows = self.differences.iter().zip(self.sizes.chunks(m.max(1)));
         rows.map(|(ends, row)| {
             let ends = ends.iter().flatten().map(|&i| from_middle[i]);
-            // What is rounded: f, each y, a product and the sums.
-            round_up(dot(row, f, f64::abs) + ends.sum::<f64>(), m + 10)
+            // What is rounded: f, the size, a product and the sums.
+            round_up(dot(row, f) + ends.sum::<f64>(), m + 10)
         })
         .collect()
     }
@@ -299,7 +304,7 @@ impl Family {
                 .map(|&(factor, a, b)| factor.mag() * (sizes[a] * v[b] + sizes[b] * v[a]));
             round_up(each.sum(), terms.len() + 5)
         });
-        self.sizes(&turned.collect::<Vec<_>>(), &v[..self.middle.centre.len()])
+        self.bounds(&turned.collect::<Vec<_>>(), &v[..self.middle.centre.len()])
     }
 
     /// How fast something changes with the right-hand side of an equation, over all figures, of which these are the derivatives by the unknowns.
@@ -318,9 +323,7 @@ impl Family {
     fn more(&self) -> Vec<f64> {
         let m = self.middle.centre.len();
         let all = self.differences.len();
-        let most = |y: &f64| y.abs() * (1.0 + 4.0 * f64::EPSILON);
-        let applied: Vec<f64> = self.applied.iter().map(most).collect();
-        let defect = &self.defect;
+        let (applied, defect) = (&self.sizes, &self.defect);
         let sizes: Vec<f64> = self.around.iter().map(|x| x.mag()).collect();
         let terms = self.terms.iter().map(Vec::len).max().unwrap_or(0);
         let up = 1.0 + (4 * m + 4 * terms + 20) as f64 * f64::EPSILON;
@@ -375,7 +378,7 @@ impl Family {
                 sum.iter_mut().for_each(|x| *x *= up);
                 above_underflow(sum);
             }
-            for ((bound, x), own) in bounds.iter_mut().zip(&image).zip(&applied) {
+            for ((bound, x), own) in bounds.iter_mut().zip(&image).zip(applied) {
                 *bound = bound.min((own + x) * up);
             }
         }
@@ -551,19 +554,6 @@ fn join(all: &mut [u64], set: &[u64]) {
 
 fn sums(a: &[Interval], b: &[Interval]) -> Vec<Interval> {
     a.iter().zip(b).map(|(a, b)| *a + *b).collect()
-}
-
-/// The sum of products of entries, taken as `of` says, with numbers, as many as there are: in four sums, each fused.
-fn dot(row: &[f64], numbers: &[f64], of: impl Fn(f64) -> f64) -> f64 {
-    let mut lanes = [0.0; 4];
-    let [(rows, row), (all, rest)] = [row, numbers].map(|x| x.as_chunks::<4>());
-    for (row, numbers) in rows.iter().zip(all) {
-        for k in 0..4 {
-            lanes[k] = of(row[k]).mul_add(numbers[k], lanes[k]);
-        }
-    }
-    let rest: f64 = row.iter().zip(rest).map(|(&x, y)| of(x) * y).sum();
-    lanes.iter().sum::<f64>() + rest
 }
 
 fn sum(terms: impl Iterator<Item = Interval>) -> Interval {

@@ -3,11 +3,12 @@
 use super::proof::Proof;
 use crate::interval::rounding::{gamma, largest, round_up};
 use crate::interval::{Interval, hull, point};
+use crate::linalg::dot;
 use crate::linalg::{LANE, Matrix, Vector};
 use crate::places::{Each as _, array};
 use crate::track::arc::Figure;
 use crate::track::events::TimeAlong;
-use crate::track::full::{Equations, Local, ORDER, Preconditioner, dot};
+use crate::track::full::{Equations, Local, ORDER, Preconditioner};
 
 /// What a preconditioner knows of the box in which a tube was proved.
 pub trait Frame: Preconditioner {

@@ -2,7 +2,7 @@
 
 use super::equations::{Differences, Equations, Lengths, MAX_DEGREE};
 use super::preconditioner::Preconditioner;
-use crate::linalg::{LANE, Matrix, Vector};
+use crate::linalg::{LANE, Matrix, Vector, dot};
 use crate::places::{Each as _, array};
 
 /// Degree of the Taylor polynomials where nothing else is said.
@@ -325,18 +325,4 @@ pub fn condition(equations: &Equations, point: &[f64], normal: &[f64]) -> Option
     local.y.multiply_abs(&vec![1.0; n], &mut sums);
     let condition = jacobian * largest(&sums);
     condition.is_finite().then_some(condition)
-}
-
-/// a·b, in four interleaved sums.
-pub fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let (a4, a1) = a.as_chunks::<LANE>();
-    let (b4, b1) = b.as_chunks::<LANE>();
-    let mut sums = [0.0; LANE];
-    for (a, b) in a4.iter().zip(b4) {
-        for i in 0..LANE {
-            sums[i] = a[i].mul_add(b[i], sums[i]);
-        }
-    }
-    let rest: f64 = a1.iter().zip(b1).map(|(x, y)| x * y).sum();
-    (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
 }

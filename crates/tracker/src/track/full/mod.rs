@@ -21,7 +21,7 @@ mod tail;
 pub use equations::{Differences, Equations, Lengths, MAX_DEGREE};
 pub use extended::shift;
 pub(in crate::track) use local::MAX_ORDER;
-pub use local::{DEGREE, Local, ORDER, condition, dot};
+pub use local::{DEGREE, Local, ORDER, condition};
 pub use preconditioner::{InverseMaker, Preconditioner};
 pub use refine::{CrossingRoom, RefineError};
 pub use start::{LARGEST_TANGENT, first_normal, path_length, sketch};

@@ -1,8 +1,9 @@
 //! Where the path's expansion has its nearest singularities: they set how far it converges, here and ahead.
 
-use super::local::{Local, dot};
+use super::local::Local;
 use super::preconditioner::Preconditioner;
 use crate::linalg::Vector;
+use crate::linalg::dot;
 
 /// A pair of singularities 1/x with x² − p x + w = 0, complex conjugate or real.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,6 +1,7 @@
 //! Setting out from the sketch, and measuring what was travelled.
 
-use super::{Equations, Local, ORDER, Preconditioner, dot};
+use super::{Equations, Local, ORDER, Preconditioner};
+use crate::linalg::dot;
 use crate::linalg::{Singular, Vector};
 use crate::system::Homotopy;
 

@@ -3,11 +3,12 @@
 use super::tube::{KrawczykTest, norm_of};
 use crate::interval::rounding::{gamma, round_up};
 use crate::linalg::Vector;
+use crate::linalg::dot;
 use crate::places::array;
 use crate::track::certified::link::{Ball, Tube, from_middle};
 use crate::track::certified::proof::Proof;
 use crate::track::full::newton::{UNTIL, Until};
-use crate::track::full::{Equations, Local, dot, shift};
+use crate::track::full::{Equations, Local, shift};
 
 /// Corrections with a proved tube's preconditioner, which shrink as far as precision goes.
 fn until(goal: f64) -> Until {

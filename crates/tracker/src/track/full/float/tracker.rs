@@ -2,6 +2,7 @@
 
 use super::crossing::{Crossing as FlatCrossing, distance};
 use super::open::{Ends, Halt, endless, follow_both_ways};
+use crate::linalg::dot;
 use crate::linalg::{Matrix, Vector};
 use crate::places::array;
 use crate::system::Homotopy;
@@ -9,7 +10,7 @@ use crate::track::ends::ENDLESS;
 use crate::track::events::{Crossing, TimeAlong, halved};
 use crate::track::float::{self, Record, SMALLEST_STEP, Tried};
 use crate::track::full::{
-    CrossingRoom, Equations, Local, ORDER, Preconditioner, dot, first_normal, path_length, sketch,
+    CrossingRoom, Equations, Local, ORDER, Preconditioner, first_normal, path_length, sketch,
 };
 use crate::track::{Control, Options, Outcome, Stop, StopKind};
 

@@ -6,8 +6,8 @@ use super::substitution::Substitution;
 use crate::linalg::rstructure::{
     Blocks, Elimination as Reduced, MAX_KEYS, Row, Solves, add, zeros,
 };
-use crate::linalg::{Singular, Vector, is_odd};
-use crate::track::full::{Differences, Equations, Lengths, dot};
+use crate::linalg::{Singular, Vector, dot, is_odd};
+use crate::track::full::{Differences, Equations, Lengths};
 use std::sync::Arc;
 
 /// What is kept from one point to the next.
