@@ -1,15 +1,16 @@
 //! `krawl motion`: how a figure moves that has one degree of freedom.
 
 use super::measured::Measured;
-use super::output::{self, Refusal, in_file};
+use super::output::{self, Beside, Refusal, in_file};
 use super::pictures::Pictures;
 use super::results::Results;
-use super::{CLOSED, OPEN, STOPPED, input, interrupt};
+use super::verify::check_written;
+use super::{BAD_INPUT, CLOSED, OPEN, STOPPED, input, interrupt};
 use krawl::edit::Setting;
 use krawl::motion::Motion;
 use krawl::report::{Document, motion_in_words, motion_to_csv, motion_to_table};
 use krawl::track::Options;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Follow a linkage all the way round, with proof: between which bounds lengths and angles stay
 ///
@@ -23,9 +24,10 @@ Examples:
   krawl motion problems/mechanisms/crank.toml --free turns:D-A-B --measure \"angle A D C\" --measure \"turn D A B\"
   krawl motion problems/mechanisms/four-bar.toml --free B-D --html motion.html    a page with a slider
   krawl motion problems/mechanisms/jansen.toml --free M-F --csv leg.csv           the frames, for a plot of the foot's curve
+  krawl motion docs/examples/bennett.toml --cert motion.krawl                     the proof, for `krawl verify`
 
-Exit codes: 0 it comes back, 5 it has two ends, 1 it could not be followed to an end: what is printed holds as far as it was followed;
-2 bad input, a figure that cannot move or can move in more than one way, or results that could not be written.")]
+Exit codes: 0 it comes back, 5 it has two ends, 1 it could not be followed to an end: what is printed holds as far as it was followed; 3 or 4 the
+certificate does not prove the whole way (see `krawl verify --help`); 2 bad input, a figure that cannot move or can move in more than one way, or results that could not be written.")]
 pub struct Arguments {
     #[command(flatten)]
     source: input::Source,
@@ -42,6 +44,12 @@ pub struct Arguments {
     /// How far it is, the coordinates of all points, what is measured; `-` is standard output
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
+    /// Write the proof as a certificate, and check it
+    ///
+    /// It is of the way of the figures, and says nothing of what is measured. `krawl verify` checks it again; where it does not pass, the exit
+    /// code is that of `verify`
+    #[arg(long, value_name = "FILE")]
+    cert: Option<PathBuf>,
     #[command(flatten)]
     measured: Measured,
     #[command(flatten)]
@@ -63,6 +71,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
     let measures = arguments.measured.of_points(problem)?;
     let file = &arguments.source.file;
     let named = [arguments.json.as_deref(), arguments.csv.as_deref()];
+    output::refuse_read([file], arguments.cert.as_deref())?;
     let mut results = Results::open([file], named, &arguments.pictures, arguments.quiet)?;
     let free = arguments.free.iter();
     let free = free.filter_map(|name| Setting::find(problem, name).ok());
@@ -77,14 +86,36 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
         &mut control,
     );
     let mut motion = motion.map_err(|error| Refusal::of_run(file, &error, &control))?;
+    let checked = match &arguments.cert {
+        Some(path) => certify(&motion, path, arguments.quiet)?,
+        None => None,
+    };
     // Frames are not all of the way.
     loaded.add_left_out(&mut motion.account, None);
     results.write_csv(|| motion_to_csv(&motion, &measures));
     results.write(|| Document::motion(&motion))?;
     results.print_or_say(|| motion_to_table(&motion), || motion_in_words(&motion));
-    Ok(results.code(match (motion.is_loop(), motion.is_told()) {
-        (true, _) => CLOSED,
-        (_, true) => OPEN,
-        _ => STOPPED,
-    }))
+    Ok(
+        results.code(match (checked, motion.is_loop(), motion.is_told()) {
+            (Some(code), ..) => code,
+            (_, true, _) => CLOSED,
+            (_, _, true) => OPEN,
+            _ => STOPPED,
+        }),
+    )
+}
+
+/// Writes the certificate of a motion and checks it: the exit code where it does not pass.
+fn certify(motion: &Motion, path: &Path, is_quiet: bool) -> Result<Option<u8>, Refusal> {
+    let beside = Beside::new(path)?;
+    let mut writer = beside.certificate(motion.certified());
+    let told = motion.tell(
+        &Options::certified(),
+        &mut interrupt::witnessed(Some(&mut writer)),
+    );
+    told.map_err(|error| format!("no certificate was written: {error}"))?;
+    match beside.commit(writer.finish().map(|_| ())) {
+        true => Ok(check_written(Some(path), motion.is_told(), is_quiet)?),
+        false => Ok(Some(BAD_INPUT)),
+    }
 }

@@ -102,6 +102,17 @@ fn check(arguments: &Arguments) -> Result<u8, String> {
     let verdict = verify(file, &settings, &mut show);
     line.clear();
     let verdict = verdict.map_err(|error| format!("{name}: {error}"))?;
+    if verdict.motion.is_some() {
+        let moves = |(problem, account): &(Problem, Account)| {
+            let (missing, is_drawn_so) = verdict.is_motion_of(problem)?;
+            Some((missing, is_drawn_so, account.clone()))
+        };
+        let found = of_file.map(|all| all.iter().find_map(moves));
+        let of_it = |file: &Path| of_the_motion(file, found.clone().flatten());
+        let said = (theorem(&verdict, clock.elapsed()), code(&verdict.outcome));
+        let same = found.as_ref().is_none_or(Option::is_some);
+        return Ok(conclude(arguments, said, (same, of_it), of_file));
+    }
     let found = compare(of_file, |problem| verdict.is_about(problem));
     // What an edit led beyond 0 or 180 degrees.
     let turned = |problem: &Problem| verdict.is_about(&with_turns_of(problem, &verdict.problem));
@@ -118,14 +129,41 @@ fn check(arguments: &Arguments) -> Result<u8, String> {
             file.display()
         ),
     };
-    let code = match verdict.outcome {
+    let said = (theorem(&verdict, clock.elapsed()), code(&verdict.outcome));
+    Ok(conclude(arguments, said, (same, of_it), of_file))
+}
+
+/// The exit code of what was found.
+fn code(outcome: &Outcome) -> u8 {
+    match outcome {
         Outcome::Verified => CLOSED,
         Outcome::Refuted(_) => REFUTED,
         Outcome::NotProved(_) => NOT_PROVED,
         Outcome::Partial(_) => INCOMPLETE,
+    }
+}
+
+/// Of a motion, the names of what in a file the proof does not have, and whether the file has the points in the same places.
+fn of_the_motion(file: &Path, found: Option<(Vec<String>, bool, Account)>) -> String {
+    let file = file.display();
+    let Some((missing, is_drawn_so, account)) = found else {
+        return format!("REFUTED: it is no motion of the figure in {file}.\n");
     };
-    let text = theorem(&verdict, clock.elapsed());
-    Ok(conclude(arguments, (text, code), (same, of_it), of_file))
+    let but = match &missing[..] {
+        [] => String::new(),
+        missing => format!(
+            ", but for {}, which the proof leaves out",
+            missing.join(", ")
+        ),
+    };
+    let drawn = match is_drawn_so {
+        true => "the sketches have the points in the same places",
+        false => "the sketch in the certificate is not the one in the file",
+    };
+    format!(
+        "The points and constraints are those in {file}, exactly{but}; {drawn}.{}\n",
+        held_and_left_out(&account)
+    )
 }
 
 /// What a file may stand for in a certificate, each with what was left out and held for it.

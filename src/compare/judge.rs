@@ -299,6 +299,7 @@ mod tests {
         let end = || PathEnd {
             t: (2.0, 2.0),
             kind: EndKind::Infinite,
+            stop: None,
             reason: "somehow".into(),
             away: None,
             points: Vec::new(),

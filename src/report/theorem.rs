@@ -4,7 +4,7 @@ use super::certain_digits;
 use crate::certificate::{Outcome, Verdict};
 use crate::constraint::{Symmetry, symmetry};
 use crate::interval::{Bound, Interval, point};
-use crate::problem::{Problem, counted};
+use crate::problem::{Problem, Target, counted};
 use std::time::Duration;
 
 /// The theorem that was checked, or the claim that failed, with the numbers of the check.
@@ -16,6 +16,9 @@ pub fn theorem(verdict: &Verdict, time: Duration) -> String {
         Bound::Upper.decimals(high, 6),
     );
     let mut out = match &verdict.outcome {
+        Outcome::Verified if verdict.motion.is_some() => {
+            format!("{name}: VERIFIED.\nTheorem. {}", motion(verdict))
+        }
         Outcome::Verified if !verdict.arcs.is_empty() => edits(verdict),
         Outcome::Verified => {
             let count = verdict.solutions.len();
@@ -44,6 +47,10 @@ pub fn theorem(verdict: &Verdict, time: Duration) -> String {
                 classes_in_words(&verdict.problem, &verdict.classes)
             )
         }
+        Outcome::Partial(reason) if verdict.motion.is_some() => format!(
+            "{name}: INCOMPLETE. The certificate ends early: {reason}.\nVerified so far: {}",
+            motion(verdict)
+        ),
         Outcome::Partial(reason) if verdict.is_edit => {
             let until = format!(
                 "{name}: INCOMPLETE. The certificate ends early: {reason}.\n\
@@ -71,7 +78,8 @@ pub fn theorem(verdict: &Verdict, time: Duration) -> String {
         ),
         Outcome::Refuted(flaw) => format!("{name}: REFUTED. This claim is false:\n{flaw}.\n"),
     };
-    if matches!(verdict.outcome, Outcome::Verified | Outcome::Partial(_)) {
+    let is_listed = matches!(verdict.outcome, Outcome::Verified | Outcome::Partial(_));
+    if is_listed && verdict.motion.is_none() {
         for (k, solution) in verdict.solutions.iter().enumerate() {
             let what = match verdict.degenerate[k] {
                 true => ", degenerate (flat)",
@@ -174,6 +182,53 @@ fn edits(verdict: &Verdict) -> String {
         let kept = counted(arc.claim.kept.len(), "sign");
         out += &format!("  edit {}: {what}: {end}; {kept} kept\n", k + 1);
     }
+    if let Some(arc) = verdict.arcs.last() {
+        write_figure(&mut out, verdict, &arc.figure);
+    }
+    out
+}
+
+/// How a figure moves, and the figure that it sets out from.
+fn motion(verdict: &Verdict) -> String {
+    let (problem, (low, high)) = (&verdict.problem, verdict.t_range);
+    let led = verdict.motion.iter().flat_map(|claim| &claim.dimensions);
+    let led = led.map(|(index, value)| {
+        let name = problem.dimension_name(*index as usize);
+        // Lengths are led in step with t.
+        let of_it = problem.distances.get(*index as usize);
+        let range = of_it.filter(|_| low <= high).map(|distance| {
+            let from = distance.target.enclose();
+            let to = Target::Length(value.clone()).enclose();
+            let at = |t: f64| from + point(t) * (to - from);
+            format!(
+                ", which stays between {} and {}",
+                Bound::Lower.decimals(at(low).inf().min(at(high).inf()), 6),
+                Bound::Upper.decimals(at(low).sup().max(at(high).sup()), 6)
+            )
+        });
+        name + &range.unwrap_or_default()
+    });
+    let led: Vec<String> = led.collect();
+    let from = match verdict.arcs.is_empty() {
+        true => "The sketch meets its dimensions, exactly.",
+        false => {
+            "The sketch is led to its dimensions, to the figure below, the one and only continuation of it."
+        }
+    };
+    let what = match (&verdict.outcome, verdict.is_open) {
+        (Outcome::Verified, false) => {
+            "these figures are a closed curve, regular along its whole length: the figure comes back to where it set out from, and \
+             without taking it apart no other can be reached"
+        }
+        _ => {
+            "the certificate's tubes hold an arc of these figures, regular along its whole length: nowhere on it could the figure go \
+             another way, and nothing is claimed of what is beyond"
+        }
+    };
+    let mut out = format!(
+        "{from} All constraints of the problem in this certificate, but for {}, stand still from there on: {what}.\n",
+        led.join(" and ")
+    );
     if let Some(arc) = verdict.arcs.last() {
         write_figure(&mut out, verdict, &arc.figure);
     }

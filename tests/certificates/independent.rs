@@ -387,6 +387,23 @@ fn are_proved_another_way(files: &[(&str, usize)]) {
     });
 }
 
+/// Of a linkage that comes back, with lengths given as squares as well.
+#[test]
+fn motions_are_proved_another_way() {
+    let problem = Problem::read("problems/mechanisms/jansen.toml").unwrap();
+    let (motion, bytes) = certificate::of_motion(&problem, &["M-F"]);
+    assert!(motion.is_loop());
+    let solutions = Certificate::read(&bytes).solutions();
+    let tubes = Certificate::read(&bytes).tubes();
+    if let Some((code, text)) = checked_bytes(&bytes) {
+        let all = format!("VERIFIED: {tubes} tubes, a motion, {solutions} solutions");
+        assert_eq!((code, text.trim()), (Some(0), &all[..]));
+    }
+    if let Some((code, text)) = scripted_bytes(&bytes) {
+        assert_eq!(code, Some(5), "{text}");
+    }
+}
+
 /// Of some of the kinds of constraints that `docs/how/certificates.md` specifies.
 #[test]
 fn other_constraints_are_proved_another_way() {

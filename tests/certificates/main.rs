@@ -15,3 +15,4 @@ mod complex_sets;
 mod covers;
 mod covers_of_constraints;
 mod independent;
+mod motions;

@@ -4,6 +4,7 @@ use krawl::certificate::{
     Reader, Record, Settings, SolutionClaim, TubeClaim, Writer, verify, write_header, write_record,
 };
 use krawl::edit::{Ending, Session, Setting};
+use krawl::motion::Motion;
 use krawl::problem::Problem;
 use krawl::system::Gauge;
 use krawl::track::{Control, Options, Outcome, solve};
@@ -51,6 +52,21 @@ pub fn of_edits(problem: &Problem, edits: &[&[&str]]) -> (Vec<Ending>, Vec<u8>) 
     };
     let endings = edits.iter().map(&mut edit).collect();
     (endings, writer.finish().unwrap())
+}
+
+/// A motion of a figure of which some dimensions are free, with the certificate that it leaves.
+pub fn of_motion(problem: &Problem, free: &[&str]) -> (Motion, Vec<u8>) {
+    let free: Vec<String> = free.iter().map(|&name| name.to_owned()).collect();
+    let options = Options::certified();
+    let motion = Motion::of(problem, &free, &[], &options, &mut Control::default()).unwrap();
+    let mut writer = Writer::new(Vec::new(), motion.certified());
+    let mut control = Control {
+        witness: Some(&mut writer),
+        ..Control::default()
+    };
+    motion.tell(&options, &mut control).unwrap();
+    let bytes = writer.finish().unwrap();
+    (motion, bytes)
 }
 
 /// The certificate of an edit of the plate in `docs/examples` to 0.001 beyond its limit, forged to one of an edit to a length that

@@ -881,6 +881,8 @@ function read(buf) {
       if (tag === 7) { arc.end.t = f64(); arc.end.tr = positive(f32()); }
     } else if (tag === 10 || tag === 11) {
       unsupported(`records ${tag}, of equations with heights divided by 1 - t`);
+    } else if (tag === 15) {
+      unsupported('a record 15, of a motion');
     } else if (tag === 3) {
       C.end = u8(); if (C.end > 2) refuse('an end that is none');
       C.texts = many(C.end, () => text(4096));

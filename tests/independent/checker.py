@@ -156,6 +156,7 @@ class Problem:
                 self.squares.append((square, wanted))
         # Unknowns that are positive, and vectors that are not zero, along the path.
         self.positive, self.nonzero = [], []
+        self.is_general = bool(others or data.get("lines") or data.get("planes") or set(self.rules) - {"distances", "squared_distances"})
         Constraints(self, data, others)
         self.sketch.append((0, 0))
         self.m = len(self.turned)
@@ -984,7 +985,9 @@ def check(data):
             raise NotProved("edits of problems with other constraints are not for this checker")
         elif tag in (10, 11):
             raise NotProved("equations with heights divided by 1 - t are not for this checker")
-        elif tag == 5:
+        elif tag in (5, 15):
+            if tag == 15 and problem.is_general:
+                raise NotProved("motions of problems with other constraints are not for this checker")
             led = []
             for _ in range(file.read("I")[0]):
                 (index,) = file.read("I")
@@ -992,7 +995,7 @@ def check(data):
             signs = []
             for _ in range(file.read("I")[0]):
                 signs.append((file.read(f"{problem.d + 1}I"), file.read("B")[0]))
-            records.append(("arc", (led, signs)))
+            records.append(({5: "arc", 15: "motion"}[tag], (led, signs)))
         elif tag == 7:
             records.append(("fold", (file.read(f"{m}d"), *file.read("fdf"))))
         else:
@@ -1006,10 +1009,15 @@ def check(data):
     kinds = [kind for kind, _ in records]
     assert file.at == len(data) and count == kinds.count("tube")
     need(ending != 1, "the run stopped")
-    if "arc" in kinds:
-        assert ending == 0 and kinds[0] == "arc" and solutions == 0, "the order of records"
-        edits(problem, records)
-        return count, f"{kinds.count('arc')} edits"
+    start, what = problem.sketch, ""
+    if kinds[:1] in (["arc"], ["motion"]):
+        at = kinds.index("motion") if "motion" in kinds else len(kinds)
+        start = edits(problem, records[:at + 1])
+        if at == len(kinds):
+            assert ending == 0 and solutions == 0, "the order of records"
+            return count, f"{kinds.count('arc')} edits"
+        assert "arc" not in kinds[at:] and kinds.count("motion") == 1 and not records[at][1][1], "the order of records"
+        records, kinds, what = records[at + 1:], kinds[at + 1:], "a motion, "
     assert (ending == 2) == ("turn" in kinds), "the order of records"
 
     listed, met, before, first = [], set(), None, None
@@ -1026,7 +1034,7 @@ def check(data):
             listed.append(solution(problem, *records[following][1]))
             following += 1
         closes = following == len(records) and not turned
-        entry, direction = enter(tube, before, problem.sketch)
+        entry, direction = enter(tube, before, start)
         if before is None:
             if turned:
                 need(dot(first, tube.c)[1] < 0, "the other way")
@@ -1035,7 +1043,7 @@ def check(data):
         leave = (tube.s, tube.s)
         if closes:
             need(before is not None, "more than one tube")
-            leave = tube.locate(problem.sketch)
+            leave = tube.locate(start)
             need(leave, "the sketch in the last tube")
             need(dot(first, tube.c)[0] > 0, "the direction of the start")
         need(entry[1] < leave[0], "an exit behind the entry")
@@ -1061,7 +1069,7 @@ def check(data):
                 same = numbers[j]
         numbers.append(max(numbers, default=-1) + 1 if same is None else same)
     need(tuple(numbers) == classes, "the classes")
-    return count, f"{solutions} solutions"
+    return count, f"{what}{solutions} solutions"
 
 
 def enter(tube, before, start):
@@ -1084,11 +1092,11 @@ def enter(tube, before, start):
 
 
 def edits(problem, records):
-    """Arcs one after the other."""
+    """Arcs one after the other, and the equations of a motion behind them: where the last one ends."""
     start, before, signs, number = problem.sketch, None, [], 0
     now = [a for a, _ in problem.squares]
     for position, (kind, claim) in enumerate(records):
-        if kind == "arc":
+        if kind in ("arc", "motion"):
             led, signs = claim
             number += 1
             wanted = [b for _, b in problem.squares] if number == 1 else list(now)
@@ -1121,6 +1129,7 @@ def edits(problem, records):
         tube.keeps(entry[0], leave[1], signs)
         before = tube.exit() if what == "tube" else None
         need(what in ("tube", "reached"), "every arc has an end")
+    return start
 
 
 if __name__ == "__main__":

@@ -3,10 +3,12 @@
 
 use krawl::complete::{Complete, Options, Status, all};
 use krawl::edit::{Ending, Session, Setting};
+use krawl::interval::Interval;
 use krawl::motion::{Bounds, Motion};
 use krawl::problem::{Problem, Shape};
 use krawl::system::Located;
 use krawl::track::{Control, prove};
+use nalgebra::DMatrix;
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 
@@ -81,19 +83,41 @@ fn arm(rows: &[Row], sketch: &[f64], target: &Matrix) -> String {
 }
 
 /// What the joints measure in each solution.
-fn moved(problem: &Problem, found: &Complete) -> Vec<Vec<f64>> {
+fn ranges(problem: &Problem, found: &Complete) -> Vec<Vec<Interval>> {
     let of = |objects: &[Located]| {
         let number = |located: &Located| match located {
-            Located::Joint { turn, travel } => turn.or(*travel).map(|x| {
-                assert!(x.wid() < 1e-9);
-                x.mid()
-            }),
+            Located::Joint { turn, travel } => turn.or(*travel),
             _ => None,
         };
         objects.iter().filter_map(number).collect()
     };
     assert!(problem.has_joints());
     found.solutions.iter().map(|s| of(&s.objects)).collect()
+}
+
+fn middles(ranges: &[Interval]) -> Vec<f64> {
+    ranges.iter().map(|x| x.mid()).collect()
+}
+
+/// The middles of what the joints measure in each solution, where none is wide.
+fn moved(problem: &Problem, found: &Complete) -> Vec<Vec<f64>> {
+    let all = ranges(problem, found);
+    assert!(all.iter().flatten().all(|x| x.wid() < 1e-9), "{all:?}");
+    all.iter().map(|one| middles(one)).collect()
+}
+
+/// By how many units the hand's frame goes, at least, where the joints go by one degree in any way.
+fn stiffness(rows: &[Row], angles: &[f64]) -> f64 {
+    let step = 1e-4;
+    let place = |k: usize, by: f64| {
+        let mut there = angles.to_vec();
+        there[k] += by;
+        hand(rows, &there)
+    };
+    let jacobian = DMatrix::from_fn(12, angles.len(), |i, k| {
+        (place(k, step)[i / 4][i % 4] - place(k, -step)[i / 4][i % 4]) / (2.0 * step)
+    });
+    jacobian.singular_values().min()
 }
 
 /// How far apart two lists of angles in degrees are, up to whole turns.
@@ -288,10 +312,14 @@ proptest! {
             ..Options::default()
         };
         let found = all(&problem, &options).unwrap();
-        let all_angles = moved(&problem, &found);
+        let all_ranges = ranges(&problem, &found);
+        let all_angles: Vec<Vec<f64>> = all_ranges.iter().map(|one| middles(one)).collect();
         are_frames(&found);
-        for one in &all_angles {
+        for (one, ranges) in all_angles.iter().zip(&all_ranges) {
             prop_assert!(off(&hand(&rows, one), &target) < 1e-8, "{one:?}");
+            // No wider than what rounding makes of the hand's place.
+            let widest = ranges.iter().map(|x| x.wid()).fold(0.0, f64::max);
+            prop_assert!(widest * stiffness(&rows, one) < 1e-12, "{widest:e} {rows:?} {one:?}");
         }
         if found.status == Status::Complete {
             let others = starts.iter().filter_map(|start| newton(&rows, &target, start.clone()));

@@ -54,6 +54,8 @@ pub const TAG_COVER: u8 = 12;
 pub const TAG_COVER_OF_COORDINATES: u8 = 13;
 /// A set of complex solutions.
 pub const TAG_COMPLEX_SET: u8 = 14;
+/// See [`TAG_TUBE`].
+pub const TAG_MOTION: u8 = 15;
 
 /// What stands before the chain of tubes.
 #[derive(Debug, Clone, PartialEq)]
@@ -87,6 +89,8 @@ pub enum Record {
     Reached(SolutionClaim),
     /// The arc ends at a fold.
     Fold(FoldClaim),
+    /// A motion: what follows are tubes of the path from the figure at hand along which a dimension is led, as far as it goes.
+    Motion(ArcClaim),
     /// The last record.
     End(EndClaim),
 }

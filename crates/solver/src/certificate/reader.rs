@@ -3,8 +3,8 @@
 use super::format::{
     ArcClaim, EndClaim, Ending, FoldClaim, FormatError, Header, MAX_DECIMAL, MAX_FREE_COORDINATES,
     MAX_LISTED, MAX_NUMBER, MAX_SOLUTIONS, MAX_TEXT, Record, SolutionClaim, TAG_ARC,
-    TAG_ARC_OF_DIMENSIONS, TAG_COMPLEX_SET, TAG_DIVIDE, TAG_END, TAG_EXTENDED, TAG_FOLD,
-    TAG_REACHED, TAG_RETURN, TAG_SOLUTION, TAG_TUBE, TAG_TURN, TubeClaim,
+    TAG_ARC_OF_DIMENSIONS, TAG_DIVIDE, TAG_END, TAG_EXTENDED, TAG_FOLD, TAG_MOTION, TAG_REACHED,
+    TAG_RETURN, TAG_SOLUTION, TAG_TUBE, TAG_TURN, TubeClaim,
 };
 use super::head::{Head, array, fill, malformed, text};
 use crate::constraint;
@@ -107,18 +107,24 @@ impl<R: Read> Reader<R> {
             (TAG_ARC | TAG_ARC_OF_DIMENSIONS, Stage::Begun | Stage::Reached) => Stage::Arc,
             (TAG_REACHED, Stage::Along) => Stage::Reached,
             (TAG_FOLD, Stage::Along) => Stage::Fold,
+            (TAG_MOTION, Stage::Begun | Stage::Reached) => changed(false, false),
             (TAG_END, stage) => stage,
-            (1..=TAG_COMPLEX_SET, _) => {
+            (1..=TAG_MOTION, _) => {
                 return Err(self.fault(&format!("a record of kind {tag} may not stand here")));
             }
             _ => return Err(self.fault(&format!("there is no kind {tag} of record"))),
         };
+        let is_of_distances = self.header.problem.is_distances_only();
         let record = match tag {
             TAG_SOLUTION => Record::Solution(self.solution()?),
             TAG_TURN => Record::Turn,
             TAG_DIVIDE => self.change(Record::Divide)?,
             TAG_RETURN => self.change(Record::Return)?,
             TAG_ARC | TAG_ARC_OF_DIMENSIONS => Record::Arc(self.arc(tag == TAG_ARC_OF_DIMENSIONS)?),
+            TAG_MOTION => match self.arc(!is_of_distances)? {
+                claim if claim.kept.is_empty() => Record::Motion(claim),
+                _ => return Err(malformed("a motion claims no signs")),
+            },
             TAG_REACHED => Record::Reached(self.figure()?),
             TAG_FOLD => Record::Fold(self.fold()?),
             TAG_END => Record::End(self.end()?),

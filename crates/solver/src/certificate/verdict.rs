@@ -24,6 +24,8 @@ pub struct Verdict {
     pub is_edit: bool,
     /// Those whose arc was proved to its end.
     pub arcs: Vec<Arc>,
+    /// The dimension that a motion leads, where the tubes behind the arcs are those of one: then they set out from the figure of the last arc.
+    pub motion: Option<ArcClaim>,
     /// Whether the path was followed both ways from the sketch, to two ends.
     pub is_open: bool,
     /// Their classes up to congruence and reflection.

@@ -4,8 +4,8 @@ use super::begun::{PROGRAM, write_header, write_text};
 use super::checker::Trial;
 use super::format::{
     ArcClaim, EndClaim, Ending, FoldClaim, MAX_FREE_COORDINATES, MAX_TEXT, Record, SolutionClaim,
-    TAG_ARC, TAG_ARC_OF_DIMENSIONS, TAG_DIVIDE, TAG_END, TAG_EXTENDED, TAG_FOLD, TAG_REACHED,
-    TAG_RETURN, TAG_SOLUTION, TAG_TUBE, TAG_TURN, TubeClaim, WEIGHT_UNIT,
+    TAG_ARC, TAG_ARC_OF_DIMENSIONS, TAG_DIVIDE, TAG_END, TAG_EXTENDED, TAG_FOLD, TAG_MOTION,
+    TAG_REACHED, TAG_RETURN, TAG_SOLUTION, TAG_TUBE, TAG_TURN, TubeClaim, WEIGHT_UNIT,
 };
 use crate::problem::{Decimal, Problem, Target};
 use crate::track::arc::{ArcEnd, ArcRun, Figure};
@@ -52,6 +52,8 @@ pub struct Writer<'a, W> {
     arc: Option<Following>,
     /// Whether there was one, and why the last did not come to its end.
     edits: Option<Result<(), String>>,
+    /// The motion, where tubes are those of one, and the edit before it.
+    motion: Vec<ArcClaim>,
     ended: bool,
     result: io::Result<()>,
     /// What lengths are divided by, and what tells whether tubes will be proved, of the given equations and of the divided ones.
@@ -81,6 +83,7 @@ impl<'a, W: Write> Writer<'a, W> {
             in_parts: false,
             arc: None,
             edits: None,
+            motion: Vec::new(),
             ended: false,
             result: Ok(()),
             unit: 1.0,
@@ -139,7 +142,10 @@ impl<'a, W: Write> Writer<'a, W> {
             Some((records, _)) => records.last(),
             None => self.tail.back(),
         };
-        let is_first = matches!(last, None | Some(Record::Turn | Record::Return));
+        let is_first = matches!(
+            last,
+            None | Some(Record::Turn | Record::Return | Record::Motion(_))
+        );
         let least = usize::from(is_first);
         let told = self.held.iter().rposition(|record| !is_tube(record));
         let least = told.map_or(least, |k| k + 2);
@@ -147,6 +153,7 @@ impl<'a, W: Write> Writer<'a, W> {
             self.tubes -= 1;
         }
         self.release();
+        let of = (self.problem, self.unit, &self.motion[..]);
         let (records, first): (Vec<&Record>, usize) = match &self.back {
             Some((records, _)) => (records.iter().collect(), 2),
             None => {
@@ -159,7 +166,7 @@ impl<'a, W: Write> Writer<'a, W> {
             .map_or(0, |k| k + 2)
             .max(first)
             .max(records.len().saturating_sub(TAIL));
-        let trial = prepared(&mut self.trials, self.problem, self.unit, false);
+        let trial = prepared(&mut self.trials, of, false);
         let fails = |record: &&Record| match (record, trial) {
             (Record::Tube(tube), Some(trial)) => !trial.proves(tube),
             _ => false,
@@ -202,6 +209,20 @@ impl<'a, W: Write> Writer<'a, W> {
         }
     }
 
+    /// Dimensions that are led, as a certificate has them.
+    fn led(&mut self, dimensions: &[(usize, &Target)]) -> Option<Vec<(u32, Decimal)>> {
+        let value = |&(index, target): &(usize, &Target)| match target {
+            Target::Length(value) => Some((index as u32, value.clone())),
+            Target::SquaredLength(_) => None,
+        };
+        let led: Option<_> = dimensions.iter().map(value).collect();
+        if led.is_none() {
+            let what = "certificates hold lengths, not squares of them";
+            self.result = Err(io::Error::other(what));
+        }
+        led
+    }
+
     fn close(&mut self, ending: Ending, classes: &[usize]) {
         self.put(Record::End(EndClaim {
             ending,
@@ -216,13 +237,12 @@ impl<'a, W: Write> Writer<'a, W> {
 /// What tells whether tubes will be proved, of the given equations or of the divided ones: made when it is wanted for the first time.
 fn prepared<'t>(
     trials: &'t mut [Option<Trial>; 2],
-    problem: &Problem,
-    unit: f64,
+    (problem, unit, motion): (&Problem, f64, &[ArcClaim]),
     is_divided: bool,
 ) -> Option<&'t Trial> {
     let trial = &mut trials[usize::from(is_divided)];
     if trial.is_none() {
-        *trial = Trial::new(problem, unit, is_divided);
+        *trial = Trial::new(problem, unit, motion, is_divided);
     }
     trial.as_ref()
 }
@@ -260,6 +280,10 @@ fn shortened(reason: &str) -> String {
 
 impl<W: Write> Witness for Writer<'_, W> {
     fn begin(&mut self, unit: f64) {
+        // The tubes of a motion go on from a figure.
+        if !self.motion.is_empty() {
+            return;
+        }
         let exponent = unit.log2() as i16;
         self.unit = unit;
         self.result = write_header(
@@ -298,7 +322,8 @@ impl<W: Write> Witness for Writer<'_, W> {
     fn is_provable(&mut self, tube: &TubeSeen) -> bool {
         self.in_parts = true;
         let is_divided = self.piece.is_some();
-        let trial = prepared(&mut self.trials, self.problem, self.unit, is_divided);
+        let of = (self.problem, self.unit, &self.motion[..]);
+        let trial = prepared(&mut self.trials, of, is_divided);
         trial.is_none_or(|trial| trial.proves(&tube_claim(tube)))
     }
 
@@ -361,20 +386,23 @@ impl<W: Write> Witness for Writer<'_, W> {
     }
 
     fn begin_arc(&mut self, dimensions: &[(usize, &Target)]) {
-        let value = |&(index, target): &(usize, &Target)| match target {
-            Target::Length(value) => Some((index as u32, value.clone())),
-            Target::SquaredLength(_) => None,
+        if let Some(dimensions) = self.led(dimensions) {
+            let tubes = Vec::new();
+            self.arc = Some(Following { dimensions, tubes });
+        }
+    }
+
+    fn begin_motion(&mut self, dimensions: &[(usize, &Target)]) {
+        let claim = |dimensions| ArcClaim {
+            is_general: !self.problem.is_distances_only(),
+            dimensions,
+            kept: Vec::new(),
         };
-        match dimensions.iter().map(value).collect() {
-            Some(dimensions) => {
-                let tubes = Vec::new();
-                self.arc = Some(Following { dimensions, tubes });
-            }
-            None => {
-                self.result = Err(io::Error::other(
-                    "certificates hold lengths, not squares of them",
-                ))
-            }
+        let before = self.edits.take().map(|_| claim(Vec::new()));
+        if let Some(dimensions) = self.led(dimensions) {
+            let motion = claim(dimensions);
+            self.motion = before.into_iter().chain([motion.clone()]).collect();
+            self.put(Record::Motion(motion));
         }
     }
 
@@ -475,9 +503,12 @@ pub fn write_record(out: &mut impl Write, record: &Record) -> io::Result<()> {
         Record::Turn => out.write_all(&[TAG_TURN]),
         Record::Divide => out.write_all(&[TAG_DIVIDE]),
         Record::Return => out.write_all(&[TAG_RETURN]),
-        Record::Arc(arc) => {
-            let kinds = [TAG_ARC, TAG_ARC_OF_DIMENSIONS];
-            out.write_all(&[kinds[usize::from(arc.is_general)]])?;
+        Record::Arc(arc) | Record::Motion(arc) => {
+            out.write_all(&[match record {
+                Record::Motion(_) => TAG_MOTION,
+                _ if arc.is_general => TAG_ARC_OF_DIMENSIONS,
+                _ => TAG_ARC,
+            }])?;
             out.write_all(&(arc.dimensions.len() as u32).to_le_bytes())?;
             for (index, value) in &arc.dimensions {
                 out.write_all(&index.to_le_bytes())?;

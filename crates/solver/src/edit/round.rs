@@ -43,8 +43,8 @@ pub struct WayEnd {
 impl From<&PathEnd> for WayEnd {
     fn from(end: &PathEnd) -> Self {
         WayEnd {
-            kind: end.kind.name(),
-            is_told: true,
+            kind: end.stop.map_or(end.kind.name(), StopKind::name),
+            is_told: end.stop.is_none_or(|stop| stop == StopKind::Singular),
             words: end.reason.clone(),
         }
     }
@@ -76,53 +76,46 @@ impl Round {
             ..problem.clone()
         };
         let placement = Placement::of(&drawing).map_err(StartError::from)?;
-        let mut follow = |reverse: bool| -> Result<(Outcome, Trace), OpenError> {
-            let options = Options {
-                tube_radius: Some(FINE * whole.homotopy().unit),
-                threads: 1,
-                reverse,
-                ..options.clone()
-            };
-            let mut trace = Trace::default();
-            let outcome = whole.lead_on(setting, |homotopy, figure| {
-                let mut control = Control {
-                    cancel: control.cancel,
-                    limit: control.limit,
-                    trace: Some(&mut trace),
-                    ..Control::default()
-                };
-                track_from(homotopy, Some(figure), &options, &mut control)
-            });
-            Ok((outcome.map_err(StartError::Unsupported)?, trace))
+        let radius = Some(FINE * whole.homotopy().unit);
+        let options = Options {
+            tube_radius: radius,
+            ..round(options)
         };
-        let (first, trace) = follow(false)?;
-        let (mut ends, mut tubes) = (ends(&first), first.steps);
-        let mut all = trace;
-        // What stops one way may go on the other, unless that was tried.
-        if let Status::Stopped(stop) = &first.status
-            && stop.kind != StopKind::Interrupted
-            && all.back().is_none()
-            && all.tubes() > 0
-        {
-            let (second, back) = follow(true)?;
-            match &second.status {
-                Status::Stopped(_) if back.back().is_none() => {
-                    ends.extend(self::ends(&second));
-                    tubes += second.steps;
-                    all = all.with_back(back);
-                }
-                _ => {
-                    (ends, tubes, all) = (self::ends(&second), second.steps, back);
-                }
-            }
-        }
+        let mut trace = Trace::default();
+        let outcome = whole.lead_on(setting, |homotopy, figure| {
+            let mut control = Control {
+                cancel: control.cancel,
+                limit: control.limit,
+                trace: Some(&mut trace),
+                ..Control::default()
+            };
+            track_from(homotopy, Some(figure), &options, &mut control)
+        });
+        let outcome = outcome.map_err(StartError::Unsupported)?;
         Ok(Round {
             whole,
             placement,
-            trace: all,
-            ends,
-            tubes,
+            trace,
+            ends: ends(&outcome),
+            tubes: outcome.steps,
         })
+    }
+
+    /// Follows the same path again for the witness of `control`: how that ends is told to it.
+    pub fn tell(
+        problem: &Problem,
+        setting: &Setting,
+        options: &Options,
+        control: &mut Control,
+    ) -> Result<(), OpenError> {
+        let mut whole = Whole::open_with(problem, options, control)?;
+        let told = whole.lead_on(setting, |homotopy, figure| {
+            if let Some(witness) = &mut control.witness {
+                witness.begin_motion(&[(setting.index, &setting.target)]);
+            }
+            track_from(homotopy, Some(figure), &round(options), control);
+        });
+        Ok(told.map_err(StartError::Unsupported)?)
     }
 
     /// Whether the path comes back to the figure that it sets out from.
@@ -160,6 +153,15 @@ impl Round {
     /// The points that stand still so; none where constraints say where the figure is.
     pub fn standing(&self) -> &[usize] {
         &self.whole.problem().homotopy.reference
+    }
+}
+
+/// Options for a path that is followed as far as it goes.
+fn round(options: &Options) -> Options {
+    Options {
+        threads: 1,
+        both_ways: true,
+        ..options.clone()
     }
 }
 

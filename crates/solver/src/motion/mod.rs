@@ -82,6 +82,8 @@ pub struct Motion {
     /// Figures along the path at equal lengths of it, beginning with the first one (or with the end behind it); of a loop the last one is
     /// the first.
     pub frames: Vec<Frame>,
+    /// The problem with the length that was led, as it is drawn, and what it was led to.
+    driven: (Problem, Setting),
 }
 
 /// A figure along the way.
@@ -152,6 +154,7 @@ impl Motion {
             round,
             driver,
             left_out,
+            mut driven,
         } = follow((&led, &problem.points), &lengths, options, control)?;
         let account = surplus::account(&problem, &left_out, &round, control);
         if account.left_out.iter().any(|one| one.verdict.is_missed()) {
@@ -161,6 +164,14 @@ impl Motion {
                 account.left_out_in_words()
             ));
         }
+        driven.0.name = match &account.names_left_out()[..] {
+            [] => format!("the motion of {}", problem.name),
+            without => format!(
+                "the motion of {} without {}",
+                problem.name,
+                list(without, LISTED)
+            ),
+        };
         let is_by_default = asked.is_empty();
         if is_by_default {
             let known: Vec<_> = quantities.iter().filter_map(Quantity::ends).collect();
@@ -192,7 +203,22 @@ impl Motion {
             ends: round.ends,
             measured,
             problem,
+            driven,
         })
+    }
+
+    /// What a certificate of the motion is about: the problem without dimensions that are free or were left out, and with the length that is led.
+    pub fn certified(&self) -> &Problem {
+        &self.driven.0
+    }
+
+    /// Follows the motion once more for the witness of `control`, the writer of a certificate of [`Motion::certified`].
+    ///
+    /// # Errors
+    /// Where that does not begin: why, in words.
+    pub fn tell(&self, options: &Options, control: &mut Control) -> Result<(), String> {
+        let (problem, setting) = &self.driven;
+        Round::tell(problem, setting, options, control).map_err(|error| error.to_string())
     }
 
     /// Whether the figure comes back to where it set out from.
@@ -296,6 +322,8 @@ struct Followed {
     driver: [usize; 2],
     /// The distances that were left out, by index.
     left_out: Vec<usize>,
+    /// The problem with that length, and what it was led to.
+    driven: (Problem, Setting),
 }
 
 impl Followed {
@@ -384,6 +412,7 @@ fn follow(
             round,
             driver,
             left_out,
+            driven: (driven, setting),
         };
         if best
             .as_ref()
@@ -403,11 +432,15 @@ fn driven(problem: &Problem, ends: [usize; 2]) -> (Problem, Setting) {
     let mut out = problem.clone();
     let length = drawn(problem, ends);
     let decimal = |x: f64| Decimal::try_from(x).unwrap_or(Decimal::from(1));
-    let index = out.distances.len();
-    out.distances.push(Distance {
+    // As in a problem's text, lengths before squared lengths.
+    let is_squared = |d: &Distance| matches!(d.target, Target::SquaredLength(_));
+    let index = out.distances.iter().position(is_squared);
+    let index = index.unwrap_or(out.distances.len());
+    let length = Distance {
         points: ends,
         target: Target::Length(decimal(length)),
-    });
+    };
+    out.distances.insert(index, length);
     // Nothing is bent, but problems of distances name one that may be; the reference is chosen among the others.
     out.homotopy.bend = match problem.is_distances_only() {
         true => index,
@@ -417,7 +450,7 @@ fn driven(problem: &Problem, ends: [usize; 2]) -> (Problem, Setting) {
     let labels = std::mem::take(&mut out.labels).into_iter();
     let moved = labels.map(|(at, label)| (at + usize::from(at >= index), label));
     out.labels = moved.collect();
-    let target = Target::Length(decimal(1.25 * length));
+    let target = Target::Length(decimal(1.25 * drawn(problem, ends)));
     // The reference that there is stands still, if it can.
     let has_reference = !out.homotopy.reference.is_empty() && out.check().is_ok();
     let out = match has_reference {

@@ -1,6 +1,6 @@
 //! Where a path that does not come back to the sketch ends.
 
-use super::{Status, Stop};
+use super::{Status, Stop, StopKind};
 use crate::constraint::Role;
 use crate::interval::vector::{cross, length, minus};
 use crate::places::{Each as _, array};
@@ -15,6 +15,8 @@ pub struct PathEnd {
     pub t: (f64, f64),
     /// What happens there.
     pub kind: EndKind,
+    /// What stopped a run there that is followed both ways whatever does.
+    pub stop: Option<StopKind>,
     /// In words what the figure does there, and what stopped the proof or the run.
     pub reason: String,
     /// At an end at infinity where a point goes there: which, and how far it was followed.
@@ -45,6 +47,8 @@ crate::named! {
         /// The equations become dependent: a degenerate figure, from which it may go on in several ways, or
         /// in none.
         Degenerate = "degenerate",
+        /// The run stopped, and is one that is followed both ways whatever stops it ([`super::Options::both_ways`]).
+        Stopped = "stopped",
     }
 }
 

@@ -31,6 +31,9 @@ pub struct Options {
     pub tube_radius: Option<f64>,
     /// Follow the loop the other way round.
     pub reverse: bool,
+    /// Certified mode: whatever stops the run one way, but an interrupt, it is followed the other way as well, and both are ends of
+    /// the path ([`super::EndKind::Stopped`]).
+    pub both_ways: bool,
     /// The threshold α on the distance to a boundary configuration (RR 8705, section 4.2) at
     /// which the construction plan is changed. Between 0 and ½.
     pub alpha: f64,
@@ -74,6 +77,7 @@ impl Options {
             tolerance: None,
             tube_radius: None,
             reverse: false,
+            both_ways: false,
             alpha: 0.1,
             extended: true,
             threads: 1,

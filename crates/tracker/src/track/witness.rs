@@ -53,6 +53,8 @@ pub trait Witness {
     fn begin_arc(&mut self, _dimensions: &[(usize, &Target)]) {}
     /// The arc is over.
     fn end_arc(&mut self, _run: &ArcRun) {}
+    /// A motion: what follows are the tubes of a run from the figure at hand, along which these dimensions are led as far as that goes.
+    fn begin_motion(&mut self, _dimensions: &[(usize, &Target)]) {}
     /// The run is over; `classes` has the class of every solution seen.
     fn end(&mut self, status: &Status, classes: &[usize]);
 }

@@ -200,17 +200,21 @@ impl Chain {
             self.from = place.spot;
             self.from.near[self.eq.m] = 0.0;
         }
-        if let Some(Record::Turn | Record::Arc(_)) = mark {
-            (self.last, self.turned) = (None, true);
-        }
-        if let Some(Record::Arc(claim)) = mark {
-            self.set_out(claim, verdict)?;
-        }
         match mark {
-            Some(Record::Divide) => self.change(true, verdict.tubes),
-            Some(Record::Return) => self.change(false, verdict.tubes),
-            _ => Ok(()),
+            Some(Record::Turn) => (self.last, self.turned) = (None, true),
+            Some(Record::Arc(claim)) => {
+                self.set_out(claim, verdict)?;
+                self.arc = Some(claim.clone());
+            }
+            Some(Record::Motion(claim)) => {
+                self.set_out(claim, verdict)?;
+                verdict.motion = Some(claim.clone());
+            }
+            Some(Record::Divide) => self.change(true, verdict.tubes)?,
+            Some(Record::Return) => self.change(false, verdict.tubes)?,
+            _ => {}
         }
+        Ok(())
     }
 
     /// What follows are tubes of the divided equations, or of the given ones again: the point where the last tube is left, and the
@@ -227,7 +231,7 @@ impl Chain {
         carried.ok_or(flaw(false, Flaw::Change(tubes)))
     }
 
-    /// What follows are tubes of an edit.
+    /// What follows are tubes of an edit, or of a motion.
     fn set_out(&mut self, claim: &ArcClaim, verdict: &mut Verdict) -> Result<(), Outcome> {
         let number = verdict.arcs.len() + 1;
         let eq = self.edits.equations(claim, number, &self.eq.homotopy);
@@ -235,7 +239,7 @@ impl Chain {
         if number == 1 {
             self.from = sketch(&self.eq);
         }
-        (self.turned, self.arc, verdict.is_edit) = (false, Some(claim.clone()), true);
+        (self.last, self.turned, verdict.is_edit) = (None, false, true);
         verdict.t_range = (f64::INFINITY, f64::NEG_INFINITY);
         Ok(())
     }

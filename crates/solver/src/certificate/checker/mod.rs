@@ -66,6 +66,7 @@ pub fn verify(
         degenerate: Vec::new(),
         is_edit: false,
         arcs: Vec::new(),
+        motion: None,
         is_open: false,
         classes: Vec::new(),
         margin: 1.0,

@@ -1,9 +1,10 @@
 //! Tubes tried before they are claimed, for who writes certificates: nobody has to trust it.
 
+use super::arc::Edits;
 use super::degenerate::Divided;
 use super::equations::Equations;
 use super::tube::Tube;
-use crate::certificate::format::TubeClaim;
+use crate::certificate::format::{ArcClaim, TubeClaim};
 use crate::interval::hull;
 use crate::problem::Problem;
 use crate::system::Homotopy;
@@ -16,9 +17,19 @@ const MARGIN: f64 = 0.05;
 pub struct Trial(Equations);
 
 impl Trial {
-    /// Of the problem's own equations, or of those with heights divided by 1 − t. `None`: the problem has none.
-    pub fn new(problem: &Problem, unit: f64, is_divided: bool) -> Option<Trial> {
-        let homotopy = Homotopy::with_unit(problem, unit).ok()?;
+    /// Of the problem's own equations, or of those of a motion and edits before it, or of those with heights divided by 1 − t. `None`: the
+    /// problem has none.
+    pub fn new(
+        problem: &Problem,
+        unit: f64,
+        motion: &[ArcClaim],
+        is_divided: bool,
+    ) -> Option<Trial> {
+        let mut homotopy = Homotopy::with_unit(problem, unit).ok()?;
+        let mut edits = Edits::new(problem);
+        for (k, claim) in motion.iter().enumerate() {
+            homotopy = edits.equations(claim, k + 1, &homotopy).ok()?.homotopy;
+        }
         if is_divided {
             return Divided::new(&homotopy).map(|divided| Trial(divided.eq));
         }

@@ -267,12 +267,6 @@ impl Trace {
         behind.chain(self.folds.iter().cloned()).collect()
     }
 
-    /// The same path, of which `back` is what was followed from the sketch in the other direction.
-    pub fn with_back(self, back: Trace) -> Self {
-        let back = Some(Box::new(back));
-        Trace { back, ..self }
-    }
-
     /// The way from the sketch in the other direction, where the path has two ends: its lengths are counted from there.
     pub fn back(&self) -> Option<&Trace> {
         self.back.as_deref()

@@ -165,6 +165,8 @@ struct Tracker<'a, const N: usize, T: Test<N>> {
     beyond: Option<Beyond>,
     /// Whether the tube around the sketch was proved.
     has_set_out: bool,
+    /// [`Options::both_ways`].
+    goes_both_ways: bool,
     /// How far the last tubes lead.
     creep: Creep,
     /// How many tubes it takes to get twice as far.
@@ -210,6 +212,7 @@ impl<'a, const N: usize, T: Test<N>> Tracker<'a, N, T> {
             crossing: None,
             beyond: None,
             has_set_out: false,
+            goes_both_ways: options.both_ways,
             creep: Creep::default(),
             pace: Pace::default(),
             at_start: None,

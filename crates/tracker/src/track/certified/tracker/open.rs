@@ -218,17 +218,22 @@ impl<const N: usize, T: Test<N>> Tracker<'_, N, T> {
 
     /// The end of the path, if that is where the run ended; otherwise why it ended again.
     pub(super) fn path_end(&self, halt: Halt) -> Result<PathEnd, Halt> {
-        if self.homotopy.tail.is_empty() || !self.has_set_out {
+        if !self.has_set_out {
             return Err(halt);
         }
         let end = match halt.came_to {
+            _ if self.homotopy.tail.is_empty() => None,
             CameTo::Nothing => None,
             CameTo::Away(_) | CameTo::Endless => Some((EndKind::Infinite, String::new())),
             CameTo::Vanishing => Some((EndKind::Undefined, String::new())),
             CameTo::Stuck { is_singular } => self.stuck_at(is_singular),
         };
-        let Some((kind, what)) = end else {
-            return Err(halt);
+        let stop = halt.stop.kind;
+        let goes_on = self.goes_both_ways && stop != StopKind::Interrupted;
+        let (kind, stop, what) = match end {
+            Some((kind, what)) => (kind, None, what),
+            None if goes_on => (EndKind::Stopped, Some(stop), String::new()),
+            None => return Err(halt),
         };
         let away = match halt.came_to {
             CameTo::Away(away) => Some(away),
@@ -237,6 +242,7 @@ impl<const N: usize, T: Test<N>> Tracker<'_, N, T> {
         Ok(PathEnd {
             t: self.reached(),
             kind,
+            stop,
             reason: format!("{what}{}", halt.stop),
             away,
             points: places(&self.homotopy, &self.now.local.z[0]),

@@ -180,6 +180,7 @@ impl<'h> Ends<'h> {
         PathEnd {
             t: (t, t),
             kind,
+            stop: None,
             reason,
             away: None,
             points: places(self.homotopy, z),
