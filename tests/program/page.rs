@@ -439,6 +439,43 @@ fn edits_and_complete_sets_have_pages_too() {
     }
 }
 
+/// What a page claims names what was held, and how far a motion was followed.
+#[test]
+fn pages_say_of_what_their_claims_are() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let (file, page) = (path("quad.toml"), path("page.html"));
+    let text = "name = \"quad\"\ndimension = 2\n[points]\na = [0, 0]\nb = [4, 0]\nc = [5, 2]\nd = [2, 5]\n[constraints]\n\
+                distances = [[\"a\", \"b\", 4], [\"b\", \"c\", 2], [\"c\", \"d\", 4.3], [\"a\", \"d\", 5.3]]\n";
+    fs::write(&file, text).unwrap();
+    let told = |arguments: &[&str]| {
+        krawl(&[arguments, &["--html", &page]].concat());
+        fs::read_to_string(&page).unwrap()
+    };
+    let html = told(&["limits", &file]);
+    for words in [
+        "coordinates were held",
+        " held on all of the way or a part of it",
+        "However the rest moves, a-d is at most 10.3",
+        "can go at least so far",
+    ] {
+        assert!(html.contains(words), "{words}");
+    }
+    assert!(
+        !html.contains("that it can be<")
+            && !html.contains("exactly one figure for every value, and")
+    );
+    let html = told(&["edit", &file, "--set", "a-d=0.05"]);
+    assert!(
+        html.contains("beyond it there is none so")
+            || html.contains("that continues the old one, with")
+            || html.contains("that continues the old one in")
+    );
+    let bar = "problems/mechanisms/four-bar.toml";
+    let html = told(&["motion", bar, "--free", "B-D"]);
+    assert!(html.contains("Between which bounds it stays, proved:"));
+}
+
 /// A rectangle with one diagonal, which is followed block by block, and a store's folder beside it.
 fn rectangle(folder: &Path) -> String {
     let file = folder.join("rectangle.toml");

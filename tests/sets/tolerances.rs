@@ -101,6 +101,16 @@ fn what_comes_together_within_its_limits_is_undecided() {
     assert_eq!(set.figures.len(), 1);
 }
 
+/// Units of unknowns that grow beyond all floats prove nothing.
+#[test]
+fn limits_that_are_much_too_wide_are_undecided() {
+    let text = "name = \"isosceles\"\ndimension = 2\n[points]\na = [0, 0]\nb = [5, 0]\nc = [0.2, -0.4]\n[lines]\nl = [\"a\", \"b\"]\n\
+                m = [\"b\", \"c\"]\n[constraints]\ndistances = [[\"a\", \"b\", 5]]\nangles = [[\"b\", \"c\", \"a\", 88]]\nequal = [[\"m\", \"l\"]]\n";
+    let problem = Problem::parse(text, "isosceles.toml").unwrap();
+    let set = within(&problem, 0.2, &[]).unwrap();
+    assert!(!set.undecided.is_empty());
+}
+
 #[test]
 fn mirror_images_are_two_figures_where_the_coordinates_are_fixed() {
     let text = "name = \"arm\"\ndimension = 2\n[points]\na = [0, 0]\nb = [4, 0]\nc = [1, 2]\n[constraints]\nfixed = [\"a\", \"b\"]\n\

@@ -3,6 +3,7 @@
 use super::reader::{Reader, circles, digits, middle, shown};
 use super::{Figure, Page, ShowError, Tone};
 use crate::report::document::Edit;
+use crate::report::edit::behind;
 
 pub(super) fn page(reader: &Reader, edit: &Edit) -> Result<Page, ShowError> {
     let mut page = reader.page("Before", "the figure in the file")?;
@@ -13,6 +14,11 @@ pub(super) fn page(reader: &Reader, edit: &Edit) -> Result<Page, ShowError> {
     };
     page.rate((badge, tone));
     page.verdict = edit.words.clone();
+    let scope = behind(" ", edit.account.scope());
+    let so = match scope.is_empty() {
+        true => "",
+        false => " so",
+    };
     for (name, value) in &edit.dimensions.0 {
         // Other dimensions than distances have no bar to stand on.
         let ends = reader.ends_of(name);
@@ -28,25 +34,26 @@ pub(super) fn page(reader: &Reader, edit: &Edit) -> Result<Page, ShowError> {
         page.labels = reader.labels(new);
         page.figures.push(Figure {
             name: name.into(),
-            note: "the one and only continuation".into(),
+            note: format!("the one and only continuation{scope}"),
             class: Some(0),
             ..reader.figure(&edit.points, &circles(&radii))?
         });
     }
     page.say(match &edit.status[..] {
-        "reached" => {
+        "reached" => format!(
             "The dimensions were led from the old values to the new ones together, with proof: all the way there is \
-             exactly one figure that continues the old one, and none of them is singular. So it cannot have \
+             exactly one figure that continues the old one{scope}, and none of them is singular. So it cannot have \
              flipped into another figure with the same dimensions."
-        }
-        "limit" => {
+        ),
+        "limit" => format!(
             "The dimensions were led towards the new values, with proof: up to the figure shown there is exactly \
-             one that continues the old one, and beyond it there is none. There it can move for an instant with \
-             all its dimensions as they are."
-        }
+             one that continues the old one{scope}, and beyond it there is none{so}. There it can move for an instant with \
+             all its dimensions as they are{so}."
+        ),
         _ => {
             "The new values were not reached, so the figure stays what it was. What is said above is as far as \
              the proof got."
+                .to_owned()
         }
     });
     page.row("orientations kept, proved", edit.kept.len());

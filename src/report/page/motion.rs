@@ -24,6 +24,10 @@ pub(super) fn page(reader: &Reader, motion: &Motion) -> Result<Page, ShowError> 
         let length = (0..3).map(square).sum::<f64>().sqrt();
         samples.push(sample(length, &figure, samples.last()));
     }
+    let so_far = match motion.status == "closed" {
+        true => "",
+        false => ", as far as it was followed",
+    };
     let mut ranges = Vec::new();
     for measured in &motion.measured {
         let name = &measured.name;
@@ -34,7 +38,7 @@ pub(super) fn page(reader: &Reader, motion: &Motion) -> Result<Page, ShowError> 
             let value = digits(end.value);
             page.figures.push(Figure {
                 name: format!("{name} = {value}"),
-                note: format!("the {which}"),
+                note: format!("the {which}{so_far}"),
                 class: Some(1 + usize::from(which == "greatest")),
                 ..reader.figure(&end.points, &nothing())?
             });
@@ -46,8 +50,10 @@ pub(super) fn page(reader: &Reader, motion: &Motion) -> Result<Page, ShowError> 
             _ => format!("{name} is not told"),
         });
     }
-    page.say("Between which bounds it stays, proved:");
-    page.text.push(Text::List(ranges));
+    if !ranges.is_empty() {
+        page.say(format!("Between which bounds it stays{so_far}, proved:"));
+        page.text.push(Text::List(ranges));
+    }
     page.paths.extend(path(&name, samples, Vec::new()));
     Ok(page)
 }

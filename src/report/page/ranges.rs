@@ -6,6 +6,7 @@ use crate::blocks::rounded_up;
 use crate::interval::{Bound, hull};
 use crate::order::InOrder;
 use crate::report::document::{Limits, RangeOf, wrong};
+use crate::report::edit::behind;
 use crate::report::sweep::not_beyond;
 
 pub(super) fn page(reader: &Reader, limits: &Limits) -> Result<Page, ShowError> {
@@ -28,10 +29,13 @@ pub(super) fn page(reader: &Reader, limits: &Limits) -> Result<Page, ShowError> 
     let mut ranges: Vec<&(String, RangeOf)> = limits.ranges.0.iter().collect();
     // In the order of the file.
     ranges.order_by_key(|(_, range)| range.constraint);
-    let mut all = true;
+    let (mut all, mut is_loose) = (true, false);
     let mut words = Vec::new();
     for (name, range) in ranges {
         let mut values = Vec::new();
+        let scope = behind(", ", range.account.scope());
+        let is_held = !range.account.held.is_empty();
+        is_loose |= is_held;
         let ends = [
             (&range.low, "least", Bound::Upper),
             (&range.high, "largest", Bound::Lower),
@@ -57,11 +61,18 @@ pub(super) fn page(reader: &Reader, limits: &Limits) -> Result<Page, ShowError> 
             let (Some(told), Some(points)) = (&end.words, &end.points) else {
                 return Err(wrong("ranges"));
             };
-            words.push(format!("{name}, the {which}, {}: {told}", digits(value)));
+            let led = match is_held {
+                true => " found, perhaps not of all",
+                false => "",
+            };
+            words.push(format!(
+                "{name}, the {which}{led}{scope}, {}: {told}",
+                digits(value)
+            ));
             page.figures.push(Figure {
                 name: format!("{name} = {}", near(middle(value))),
                 note: format!(
-                    "the {which} that it can be{}",
+                    "the {which} that it can be led to from the file{scope}{}",
                     special(reader, end.flat.as_deref().unwrap_or_default())
                 ),
                 // No two of them are congruent.
@@ -70,17 +81,37 @@ pub(super) fn page(reader: &Reader, limits: &Limits) -> Result<Page, ShowError> 
             });
         }
         let (now, values) = (digits(range.value), values.join(" to "));
-        page.row(name, format!("is {now}; from {values}"));
+        page.row(name, format!("is {now}; from {values}{scope}"));
+        let bounds = [
+            ("least", range.least, Bound::Lower),
+            ("most", range.most, Bound::Upper),
+        ];
+        for (which, bound, side) in bounds {
+            if let Some(bound) = bound.filter(|_| is_held) {
+                let bound = side.decimals(bound, 9);
+                words.push(format!(
+                    "However the rest moves, {name} is at {which} {bound}, proved"
+                ));
+            }
+        }
     }
     page.rate(match all {
         true => ("proved", Tone::Proved),
         false => ("proved in part", Tone::Stopped),
     });
-    page.say(
-        "Each dimension was moved alone, both ways, with proof: between the figure of the file and a limit there is \
-         exactly one figure for every value, and beyond the limit it has no continuation. At a limit the figure can \
-         move for an instant with all dimensions as they are.",
-    );
+    page.say(match is_loose {
+        false => {
+            "Each dimension was moved alone, both ways, with proof: between the figure of the file and a limit there is exactly one \
+             figure for every value that continues it, and beyond the limit it has no continuation. Figures that are put together \
+             another way may have other limits. At a limit the figure can move for an instant with all dimensions as they are."
+        }
+        true => {
+            "Each dimension was moved alone, both ways, with proof. The figure can move with all its dimensions as they are, so \
+             coordinates were held, which are named: with these held there is exactly one figure for every value up to a limit that \
+             continues that of the file, and none beyond. So each dimension can go at least so far, and with other coordinates held \
+             perhaps further."
+        }
+    });
     if !words.is_empty() {
         page.text.push(Text::List(words));
     }

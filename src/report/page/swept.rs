@@ -3,6 +3,7 @@
 use super::reader::{Reader, digits, middle, nothing};
 use super::{Figure, Level, Page, Path, Sample, ShowError, Tone};
 use crate::report::document::{Dimension, Sweep, wrong};
+use crate::report::edit::behind;
 
 pub(super) fn page(reader: &Reader, sweep: &Sweep) -> Result<Page, ShowError> {
     let mut page = reader.page("In the file", "the figure that the sweep sets out from")?;
@@ -57,8 +58,9 @@ pub(super) fn page(reader: &Reader, sweep: &Sweep) -> Result<Page, ShowError> {
         });
     }
     page.say(format!(
-        "The slider drives {name}. Between two frames too the figure is the one and only continuation, without \
-         a turn back: what is drawn there is drawn straight from one frame to the next."
+        "The slider drives {name}. Between two frames too the figure is the one and only continuation{}, without \
+         a turn back: what is drawn there is drawn straight from one frame to the next.",
+        behind(" ", sweep.account.scope())
     ));
     page.row("frames", frames.len());
     page.paths.extend(path(name, samples, levels));

@@ -18,6 +18,10 @@ impl Square<'_> {
     /// the greatest |wᵢ| / sᵢ, and the test is that of [`alone_within`] in this norm.
     pub(super) fn test_in_ranges(&self, x: &[Interval], own: Vec<f64>, y: &[f64]) -> Option<Zero> {
         let n = self.own.len();
+        let is_known = |numbers: &[f64]| numbers.iter().all(|x| x.is_finite());
+        if !is_known(y) {
+            return None;
+        }
         let at = self.with(x, |k| point(own[k]));
         let f: Vec<Interval> = self.rows.iter().map(|row| row.value(&at)).collect();
         let jacobian = self.derivatives(&at);
@@ -51,6 +55,9 @@ impl Square<'_> {
         };
         let mut scale = moved.clone();
         for round in 0..ROUNDS {
+            if !is_known(&scale) {
+                return None;
+            }
             let most = scale.iter().copied().fold(f64::MIN_POSITIVE, largest);
             scale.iter_mut().for_each(|s| *s = s.max(LEAST * most));
             if round + 1 < ROUNDS {
