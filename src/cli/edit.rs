@@ -10,7 +10,7 @@ use super::{BAD_INPUT, CLOSED, LIMIT, PASSES, STOPPED, input, interrupt, serve};
 use krawl::blocks::Account;
 use krawl::edit::{Asked, Astray, Drag, Edited, Ending, OpenError, Session, Setting};
 use krawl::import::{Followed, Format};
-use krawl::problem::Problem;
+use krawl::problem::{Problem, Shape};
 use krawl::remarks::moves;
 use krawl::report::{
     Document, account_in_words, edit_to_table, followed_to_table, signs_of_figure,
@@ -104,6 +104,12 @@ pub(super) struct LeftOut {
     /// gives the number]
     #[arg(long, value_name = "X", value_parser = super::all::seconds, hide_short_help = true)]
     pub redundant_tolerance: Option<f64>,
+    /// Keep the edges of closed outlines from touching
+    ///
+    /// In sketches in the plane: a way ends where two lines or arcs of closed outlines come to touch that are apart as they are drawn, and
+    /// says which; circles are not looked at, nor are edges with a common end but lines that fold onto each other
+    #[arg(long, hide_short_help = true)]
+    pub simple: bool,
 }
 
 impl LeftOut {
@@ -111,6 +117,7 @@ impl LeftOut {
     pub fn options(&self) -> Options {
         Options {
             redundant_tolerance: self.redundant_tolerance,
+            simple: self.simple,
             ..Options::certified()
         }
     }
@@ -209,11 +216,13 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
     if results.is_told() {
         say_if_it_moves(&problem);
     }
-    let opened = match drags.is_empty() {
-        true => Session::open_with(&problem, &options, &mut control),
-        false => Session::open_to_drag(&problem, &options, &mut control),
+    let mut session = match drags.is_empty() {
+        true => open(&problem, file, &options, &mut control)?,
+        false => taken(
+            Session::open_to_drag(&problem, &options, &mut control),
+            file,
+        )?,
     };
-    let mut session = taken(opened, file)?;
     let mut edited = match drags.is_empty() {
         true => session.edit_with(&led, &mut control),
         false => session.drag(&drags, &mut control),
@@ -350,7 +359,7 @@ pub(super) fn commit(
         return Ok((true, None));
     };
     if let Ending::Stopped(stop) = &edited.ending
-        && stop.kind == StopKind::Vanishes
+        && matches!(stop.kind, StopKind::Vanishes | StopKind::Touches)
     {
         let text = format!("no certificate was written: {stop}");
         output::complain(&in_file(file)(text));
@@ -387,6 +396,12 @@ pub(super) fn open(
     options: &Options,
     control: &mut Control,
 ) -> Result<Session, Refusal> {
+    let mut shapes = problem.objects.iter().map(|object| &object.shape);
+    if options.simple && !shapes.any(|s| matches!(s, Shape::Line(_) | Shape::Arc { .. })) {
+        let what =
+            "--simple: there are no lines between points and no arcs, so no outline is looked at";
+        output::complain(&in_file(file)(what));
+    }
     taken(Session::open_with(problem, options, control), file)
 }
 

@@ -6,7 +6,7 @@ use super::pictures::Pictures;
 use super::results::Results;
 use super::verify::check_written;
 use super::{BAD_INPUT, CLOSED, OPEN, STOPPED, input, interrupt};
-use krawl::edit::Setting;
+use krawl::edit::{Setting, held_though_computed};
 use krawl::motion::Motion;
 use krawl::report::{Document, motion_in_words, motion_to_csv, motion_to_table};
 use krawl::track::Options;
@@ -24,7 +24,7 @@ Examples:
   krawl motion problems/mechanisms/crank.toml --free turns:D-A-B --measure \"angle A D C\" --measure \"turn D A B\"
   krawl motion problems/mechanisms/four-bar.toml --free B-D --html motion.html    a page with a slider
   krawl motion problems/mechanisms/jansen.toml --free M-F --csv leg.csv           the frames, for a plot of the foot's curve
-  krawl motion docs/examples/bennett.toml --cert motion.krawl                     the proof, for `krawl verify`
+  krawl motion problems/mechanisms/four-bar.toml --free B-D --cert proof.krawl    the proof, for `krawl verify`
 
 Exit codes: 0 it comes back, 5 it has two ends, 1 it could not be followed to an end: what is printed holds as far as it was followed; 3 or 4 the
 certificate does not prove the whole way (see `krawl verify --help`); 2 bad input, a figure that cannot move or can move in more than one way, or results that could not be written.")]
@@ -92,6 +92,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
     };
     // Frames are not all of the way.
     loaded.add_left_out(&mut motion.account, None);
+    motion.account.held_though_computed = held_though_computed(problem, &free);
     results.write_csv(|| motion_to_csv(&motion, &measures));
     results.write(|| Document::motion(&motion))?;
     results.print_or_say(|| motion_to_table(&motion), || motion_in_words(&motion));

@@ -6,10 +6,9 @@ use super::output::{self, Beside, Refusal, in_file};
 use super::pictures::Pictures;
 use super::results::Results;
 use super::{input, interrupt, table};
-use crate::places::Each as _;
 use krawl::constraint::MOST_TURN;
-use krawl::edit::{Asked, Setting};
-use krawl::problem::Decimal;
+use krawl::edit::{Asked, Setting, SettingError, evenly};
+use krawl::problem::{Decimal, Problem};
 use krawl::report::{Document, sweep_in_words, sweep_to_csv};
 use std::path::PathBuf;
 
@@ -30,7 +29,9 @@ Exit codes: 0 all frames were reached; 3 limit, 4 branches meet, 1 stopped: the 
 pub struct Arguments {
     #[command(flatten)]
     pub(super) source: input::Source,
-    /// The dimension that is driven, such as a-b, radii:hole or angles:a-b-c
+    /// The dimension that is driven, such as a-b, radii:hole or angles:a-b-c, or a parameter
+    ///
+    /// What a problem file computes from a parameter is driven with it
     #[arg(long, value_name = "NAME", required_unless_present = "table")]
     vary: Option<String>,
     /// Its first value
@@ -51,7 +52,7 @@ pub struct Arguments {
     to: Option<String>,
     /// Drive several dimensions together, from row to row of a table
     ///
-    /// CSV, the first line their names, each other one their values
+    /// CSV, the first line names of dimensions or parameters, each other one their values
     #[arg(long, value_name = "FILE", conflicts_with_all = ["vary", "from", "to", "frames", "json", "cert", "html", "svg", "animation", "obj", "dxf", "xyz"])]
     table: Option<PathBuf>,
     /// With --table: write the figure of each row into this folder
@@ -113,37 +114,33 @@ fn drive(arguments: &Arguments, vary: &str, ends: [&str; 2]) -> Result<u8, Refus
     let loaded = arguments.source.load()?;
     let problem = &loaded.problem;
     output::say_if_signs_are_not_looked_at(problem);
-    let named = ends.each(|value| (vary, value));
-    let asked = Asked::of_dimensions(problem, &named).map_err(in_file(file))?;
-    Setting::check(&asked.problem, &asked.settings[..1]).map_err(in_file(file))?;
-    let led = [asked.given[0].index];
+    let named = ends.map(|value| (vary, value));
+    let asked = Asked::rows(problem, &named, 1).map_err(in_file(file))?;
+    let count = asked.settings.len() / ends.len();
+    let first = &asked.settings[..count];
+    Setting::check(&asked.problem, first).map_err(in_file(file))?;
+    let led = asked.given[..count].iter().map(|setting| setting.index);
+    let led: Vec<usize> = led.collect();
     loaded.check_numbers(&led).map_err(in_file(file))?;
     loaded.say_computed(&led);
     let measures = arguments.measured.of(problem)?;
     let as_turns = asked.in_words(problem);
-    let (mut problem, mut index) = (asked.problem, asked.settings[0].index);
     let [from, to]: [Decimal; 2] = ends.map(|value| value.parse().expect("it was just parsed"));
-    let step = (to.to_f64() - from.to_f64()).abs() / f64::from(arguments.frames - 1);
-    let driven = index.checked_sub(problem.distances.len());
-    if step > MOST_TURN.into() && driven.is_some_and(|c| problem.constraints[c].kind == "turns") {
-        return Err(in_file(file)(format!(
-            "{vary} turns by {step} degrees from one frame to the next; at most {MOST_TURN} are allowed: ask for more `--frames`"
-        ))
-        .into());
-    }
+    let frames = arguments.frames as usize;
+    let rows = || evenly(&from, &to, frames).map(|value| asked.with(count, (vary, &value)));
+    check(&asked.problem, rows()).map_err(in_file(file))?;
+    let rows = || rows().map(|row| row.expect("it was just checked"));
+    let mut problem = asked.problem.clone();
     let mut cert = arguments.cert.as_deref();
     let mut account = None;
     if cert.is_some() {
-        let frames = arguments.frames as usize;
-        let first = &asked.settings[..1];
         match certified(file, (&problem, first), |session| {
-            let mut control = interrupt::control();
-            let sweep = session.sweep(index, (&from, &to), frames, &mut control);
+            let sweep = session.sweep_through(rows(), &mut interrupt::control());
             let stop = reason(sweep.end.as_ref().unwrap_or(&sweep.approach));
             (sweep.account, stop)
         })? {
             Some(found) => {
-                (problem, index) = (found.problem, found.settings[0].index);
+                problem = found.problem;
                 account = Some(found.account);
             }
             None => cert = None,
@@ -156,7 +153,14 @@ fn drive(arguments: &Arguments, vary: &str, ends: [&str; 2]) -> Result<u8, Refus
     let mut control = interrupt::witnessed(witness.as_mut());
     let options = arguments.left_out.options();
     let mut session = open(&problem, file, &options, &mut control)?;
-    let mut sweep = session.sweep(index, (&from, &to), arguments.frames as usize, &mut control);
+    // What a certificate leaves out follows from the rest.
+    let carried = |setting: &Setting| setting.carried(&asked.problem, &problem).ok().flatten();
+    let rows = rows().map(|row| match cert {
+        Some(_) => row.iter().filter_map(carried).collect(),
+        None => row,
+    });
+    let mut sweep = session.sweep_through(rows, &mut control);
+    let index = sweep.led[0];
     if let Some(account) = account {
         sweep.account = account;
     }
@@ -188,6 +192,36 @@ fn drive(arguments: &Arguments, vary: &str, ends: [&str; 2]) -> Result<u8, Refus
         as_turns + &words + "\n" + &measures.over(frames())
     });
     Ok(results.code(verdict.unwrap_or(exit_code(last))))
+}
+
+/// Whether each row of settings makes sense, and no turn goes too far from one to the next.
+fn check(
+    problem: &Problem,
+    rows: impl Iterator<Item = Result<Vec<Setting>, SettingError>>,
+) -> Result<(), String> {
+    let degrees = |setting: &Setting| {
+        let c = setting.index.checked_sub(problem.distances.len())?;
+        let is_turn = problem.constraints[c].kind == "turns";
+        is_turn.then(|| setting.target.to_f64())
+    };
+    let mut before: Option<Vec<Setting>> = None;
+    for row in rows {
+        let row = row.map_err(|error| error.to_string())?;
+        for (was, is) in before.iter().flatten().zip(&row) {
+            let (Some(from), Some(to)) = (degrees(was), degrees(is)) else {
+                continue;
+            };
+            let step = (to - from).abs();
+            if step > MOST_TURN.into() {
+                let name = problem.dimension_name(is.index);
+                return Err(format!(
+                    "{name} turns by {step} degrees from one frame to the next; at most {MOST_TURN} are allowed: ask for more `--frames`"
+                ));
+            }
+        }
+        before = Some(row);
+    }
+    Ok(())
 }
 
 impl Arguments {

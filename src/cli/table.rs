@@ -7,14 +7,14 @@ use super::sweep::Arguments;
 use super::{CLOSED, interrupt};
 use krawl::edit::{Asked, Ending, Session, Setting};
 use krawl::interval::Interval;
-use krawl::problem::Decimal;
+use krawl::problem::{Decimal, Problem};
 use krawl::report::{Placed, account_in_words, edit_in_words, frames_to_csv};
 use krawl::system::Located;
 use std::collections::HashSet;
 use std::fs;
 use std::path::Path;
 
-/// The cells of a table, of which the first line names dimensions.
+/// The cells of a table, of which the first line names dimensions or parameters.
 struct Table {
     names: Vec<String>,
     rows: Vec<Vec<String>>,
@@ -62,8 +62,10 @@ pub(super) fn run(arguments: &Arguments, file: &Path) -> Result<u8, Refusal> {
         .iter()
         .flat_map(|row| table.names.iter().zip(row));
     let cells: Vec<(&str, &str)> = cells.map(|(name, cell)| (&**name, &**cell)).collect();
-    let asked = Asked::of_dimensions(&loaded.problem, &cells).map_err(in_file(file))?;
-    let (columns, problem) = (table.names.len(), &asked.problem);
+    let names = table.names.len();
+    let asked = Asked::rows(&loaded.problem, &cells, names).map_err(in_file(file))?;
+    // With a parameter all goes that is computed from it.
+    let (columns, problem) = (asked.settings.len() / table.rows.len(), &asked.problem);
     let led = asked.given[..columns].iter().map(|setting| setting.index);
     let led: Vec<usize> = led.collect();
     loaded.check_numbers(&led).map_err(in_file(file))?;
@@ -102,7 +104,15 @@ pub(super) fn run(arguments: &Arguments, file: &Path) -> Result<u8, Refusal> {
         ));
         if let Some(folder) = folder {
             let given = &asked.given[number * columns..][..columns];
-            results.note(write(arguments, &loaded, (&session, given), (folder, row))?);
+            let mut changed = Setting::applied(given, &loaded.problem);
+            let cells = Asked::rows(&loaded.problem, &cells[number * names..][..names], names);
+            changed.parameters = cells.map_err(in_file(file))?.parameters;
+            results.note(write(
+                arguments,
+                &loaded,
+                (&session, &changed),
+                (folder, row),
+            )?);
         }
     }
     let names: Vec<String> = asked.settings[..columns]
@@ -142,12 +152,11 @@ fn in_words(name: &str, (done, all): (usize, usize), of: &str) -> String {
 fn write(
     arguments: &Arguments,
     loaded: &Loaded,
-    (session, given): (&Session, &[Setting]),
+    (session, changed): (&Session, &Problem),
     (folder, row): (&Path, usize),
 ) -> Result<bool, String> {
-    let changed = Setting::applied(given, &loaded.problem);
     let (points, objects) = (session.figure(), session.objects());
-    let bytes = loaded.rewritten(&arguments.source.file, &changed, &points, &objects)?;
+    let bytes = loaded.rewritten(&arguments.source.file, changed, &points, &objects)?;
     let file = &arguments.source.file;
     let stem = file.file_stem().unwrap_or_default().to_string_lossy();
     let extension = file.extension().unwrap_or_default().to_string_lossy();

@@ -7,8 +7,9 @@ use super::results::Results;
 use super::{CLOSED, STOPPED, input, interrupt};
 use krawl::blocks::Account;
 use krawl::complete::{self, Progress};
-use krawl::edit::Limits;
-use krawl::problem::{Decimal, Problem};
+use krawl::constraint::{Measure, measure_of};
+use krawl::edit::{Limits, held_though_computed};
+use krawl::problem::{Decimal, Problem, list};
 use krawl::report::{
     Document, ProgressLine, tolerance_set_in_words, tolerance_set_to_table, tolerances_in_words,
     tolerances_to_csv, tolerances_to_table,
@@ -45,9 +46,10 @@ pub struct Arguments {
     /// Threads for --all [default: one per processor]; the answer does not depend on it
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024), requires = "all", hide_short_help = true)]
     threads: Option<u16>,
-    /// The tolerance of all lengths and radii that have none of their own
+    /// The tolerance of all distances between points and radii that have none
     ///
-    /// 0.1, or so far down and up, -0.2,0.1
+    /// 0.1, or so far down and up, -0.2,0.1. Other dimensions without one are exact: distances from lines, planes and circles, diameters,
+    /// coordinates, angles
     #[arg(long, value_name = "VALUE", allow_hyphen_values = true)]
     default: Option<String>,
     /// The tolerance of one dimension, a-b=0.1 or a-b=-0.2,0.1
@@ -81,7 +83,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
     let loaded = arguments.source.load()?;
     loaded.say_computed(&loaded.problem.dimensions().collect::<Vec<_>>());
     let (problem, made) = input::whole(file, &loaded)?;
-    let made = made.with_other_numbers();
+    let mut made = made.with_other_numbers();
     output::say_if_signs_are_not_looked_at(&problem);
     let named = [arguments.json.as_deref(), arguments.csv.as_deref()];
     let mut results = Results::open([file], named, &arguments.pictures, arguments.quiet)?;
@@ -96,6 +98,11 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
     arguments.measured.of_points(&problem)?;
     let limits = limits(&problem, &named, default.as_ref());
     let limits = limits.map_err(|error| format!("{}: {error}", file.display()))?;
+    let limited: Vec<usize> = limits.iter().map(|one| one.index).collect();
+    made.held_though_computed = held_though_computed(&problem, &limited);
+    if default.is_some() || problem.tolerances.default.is_some() {
+        say_exact(&problem, &limited);
+    }
     if arguments.all {
         if !results.pictures.is_empty() {
             let what = "pictures are of the figure drawn, and not of all: leave out --all or them";
@@ -121,6 +128,29 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
         || tolerances_in_words(&problem, &study),
     );
     Ok(results.code(CLOSED))
+}
+
+/// Says which lengths a default leaves exact: there are limits of some kinds only.
+fn say_exact(problem: &Problem, limited: &[usize]) {
+    let is_length = |index: usize| match index.checked_sub(problem.distances.len()) {
+        None => true,
+        Some(c) => match measure_of(problem, c) {
+            Measure::Signed => problem.constraints[c].kind != "values",
+            other => other == Measure::Length,
+        },
+    };
+    let exact = problem
+        .dimensions()
+        .filter(|index| !limited.contains(index));
+    let exact = exact.filter(|&index| is_length(index));
+    let names: Vec<String> = exact.map(|index| problem.dimension_name(index)).collect();
+    if !names.is_empty() {
+        output::complain(&format!(
+            "{}: exact, as the default is for distances between points and radii alone: {}",
+            problem.name,
+            list(&names, 10)
+        ));
+    }
 }
 
 /// Looks for every figure.

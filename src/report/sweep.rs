@@ -6,7 +6,7 @@ use super::edit::{behind, edit_in_words, limit_in_words, short, write_moved};
 use super::measured::{Measures, Placed};
 use crate::edit::{Edited, End, Ending, Moved, Range, Sweep};
 use crate::interval::{Bound, Interval};
-use crate::problem::Problem;
+use crate::problem::{Problem, list};
 use crate::remarks::Reach;
 
 /// The ranges of dimensions as a table.
@@ -99,13 +99,14 @@ fn reach_in_words(problem: &Problem, index: usize, reach: &Reach) -> String {
     });
     let mut pairs: Vec<String> = pairs.collect();
     let longest = reach.longest.map(|place| pairs.remove(place));
-    let bound = certain_digits(reach.bound);
+    let bound = |side| not_beyond(reach.bound, side);
     let why = match longest {
         Some(longest) => format!(
-            "at least {bound}: {longest} \u{2212} {}",
+            "at least {}: {longest} \u{2212} {}",
+            bound(Bound::Lower),
             pairs.join(" \u{2212} ")
         ),
-        None => format!("at most {bound}: {}", pairs.join(" + ")),
+        None => format!("at most {}: {}", bound(Bound::Upper), pairs.join(" + ")),
     };
     format!("However the rest moves, {name} is {why}, proved.\n")
 }
@@ -141,9 +142,16 @@ pub(super) fn obstacle(sweep: &Sweep) -> Option<&Edited> {
 /// What came of a sweep in words.
 pub fn sweep_in_words(problem: &Problem, index: usize, sweep: &Sweep) -> String {
     let name = problem.dimension_name(index);
+    let with = sweep.led[1..]
+        .iter()
+        .map(|&index| problem.dimension_name(index));
+    let with = match list(&with.collect::<Vec<_>>(), 12) {
+        names if names.is_empty() => names,
+        names => format!(" and with it of {names}, computed by the file's expressions"),
+    };
     let frames = match (sweep.frames.first(), sweep.frames.last()) {
         (Some(first), Some(last)) => format!(
-            "{} of {name} from {} to {}, each proved to be the one and only continuation of the one before{}",
+            "{} of {name} from {} to {}{with}, each proved to be the one and only continuation of the one before{}",
             crate::problem::counted(sweep.frames.len(), "frame"),
             short(first.value),
             short(last.value),

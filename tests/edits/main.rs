@@ -15,6 +15,7 @@ mod freecad_files;
 mod measures;
 mod motion;
 mod not_square;
+mod outlines;
 mod parameters;
 mod real_files;
 mod real_sketches;

@@ -28,6 +28,11 @@ fn what_is_wrong_is_said_with_its_place() {
             "linkage.toml:19: joints: the joint `B`: there is no point or object `slid`; did you mean `slide`?",
         ),
         (
+            "[points]\n",
+            "[points]\nZ = [0, 0]\n# ",
+            "there is no point `G`; a point of the body `ground` stands under `points` as well, where it is drawn",
+        ),
+        (
             "[\"rod\", \"slide\"]",
             "[\"rod\"]",
             "joints.B: must be { revolute",

@@ -151,3 +151,18 @@ fn measures_of_a_file_have_names() {
     let (code, _, error) = krawl(&["check", &file]);
     assert!(code == Some(2) && error.contains("measures.gap"), "{error}");
 }
+
+/// Limits are not taken of all lengths: which of them a default leaves exact is said.
+#[test]
+fn what_a_default_leaves_exact_is_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("t.toml");
+    let text = "name = \"t\"\ndimension = 2\n[points]\na = [0, 0]\nb = [4, 0]\nc = [2, 3]\n[lines]\nl = [\"a\", \"b\"]\n[constraints]\n\
+                distances = [[\"a\", \"b\", 4], [\"a\", \"c\", 3.6], [\"c\", \"l\", 3]]\n";
+    fs::write(&file, text).unwrap();
+    let (code, text, error) = krawl(&["tolerance", file.to_str().unwrap(), "--default", "0.01"]);
+    assert_eq!(code, Some(0), "{text}{error}");
+    let words =
+        "exact, as the default is for distances between points and radii alone: distances:c-l";
+    assert!(error.contains(words), "{text}{error}");
+}

@@ -29,6 +29,9 @@ pub struct Account {
     pub left_out: Vec<LeftOut>,
     /// The coordinates (or radii, directions) that are held because nothing determines them.
     pub held: Vec<Held>,
+    /// The dimensions that stand still although the file computes them from what is led, or what is led from them, in words.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub held_though_computed: Vec<String>,
     /// What is left as it is in the file of another program.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub left_as_is: Vec<String>,
@@ -185,6 +188,9 @@ impl Account {
                 self.held.push(held.clone());
             }
         }
+        for held in &other.held_though_computed {
+            add_new(&mut self.held_though_computed, held.clone());
+        }
         if self.left_as_is.is_empty() {
             self.left_as_is.clone_from(&other.left_as_is);
             self.without_a_kind.clone_from(&other.without_a_kind);
@@ -203,6 +209,7 @@ impl Account {
     /// Whether the claim is about the figure as it is: nothing is held or added, and what was left out follows, proved.
     pub fn is_whole(&self) -> bool {
         self.held.is_empty()
+            && self.held_though_computed.is_empty()
             && self.added.is_empty()
             && self.left_as_is.is_empty()
             && self.meets_all()
@@ -332,10 +339,12 @@ impl Account {
             true => String::new(),
             false => format!("among them {}", list(&self.added)),
         };
-        joined(
-            [used, added, self.held_in_words(), self.kept_in_words()],
-            ", ",
-        )
+        let computed = match self.held_though_computed.is_empty() {
+            true => String::new(),
+            false => format!("with {}", list(&self.held_though_computed)),
+        };
+        let (held, kept) = (self.held_in_words(), self.kept_in_words());
+        joined([used, added, held, computed, kept], ", ")
     }
 
     /// All of it as one clause: [`Account::scope`], and what was left out.

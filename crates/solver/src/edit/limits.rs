@@ -2,7 +2,7 @@
 
 use super::ending::{Edited, Ending, Keep, Limit};
 use super::setting::measure;
-use super::{Session, Setting};
+use super::{Session, Setting, held_though_computed};
 use crate::blocks::Account;
 use crate::constraint::Measure;
 use crate::interval::Interval;
@@ -92,8 +92,9 @@ impl Session {
         let ends = [low, high].map(|goal| self.end(index, goal, control));
         let [(low, low_figure, mut account), (high, high_figure, other)] = ends;
         account.join(&other);
-        // What is left out may be missed by a little.
-        let reach = match account.left_out.is_empty() {
+        account.held_though_computed = held_though_computed(self.problem(), &[index]);
+        // What is left out may be missed by a little, and what is computed from the same parameters is another length then.
+        let reach = match account.left_out.is_empty() && account.held_though_computed.is_empty() {
             true => reach,
             false => [None, None],
         };

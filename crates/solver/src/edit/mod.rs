@@ -37,6 +37,7 @@
 //! ```
 
 mod alone;
+mod computed;
 mod drag;
 mod ending;
 mod flat;
@@ -57,6 +58,7 @@ mod whole_turn;
 mod write;
 
 pub use alone::{Alone, alone};
+pub use computed::held_though_computed;
 pub use drag::{Drag, Dragged};
 use ending::Keep;
 pub use ending::{Astray, Dimension, Edited, Ending, Limit, Lost, Orientations};
@@ -68,7 +70,7 @@ pub(crate) use round::Round;
 pub use round::WayEnd;
 pub use session::{Decomposition, Session, Standing, TooMany, completed};
 pub use setting::{Setting, SettingError};
-pub use sweep::{Frame, Sweep};
+pub use sweep::{Frame, Sweep, evenly};
 pub use whole_turn::{Asked, with_turns_of};
 pub use write::{WriteError, rewrite};
 

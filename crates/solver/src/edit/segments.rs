@@ -1,13 +1,15 @@
-//! Lines and arcs that shrink to nothing end an edit: beyond they would be turned round.
+//! Lines and arcs that shrink to nothing end an edit: beyond they would be turned round. If that is asked for, so do edges of closed
+//! outlines that come to touch.
 //!
 //! The equations do not know which way a line along an axis runs, nor that the end of an arc comes after its start: a path goes
 //! on through a line of length 0, and through an arc of 0 or 360 degrees. What is drawn is another figure then. So such a place is
 //! an end, in every verb, unless a dimension with a sign says itself that this very line is to run the other way.
 
-use crate::interval::Interval;
+use crate::blocks::list_of;
+use crate::interval::{Interval, point};
 use crate::places::Each as _;
 use crate::problem::{Item, Problem, Shape};
-use crate::system::{Extent, Segment};
+use crate::system::{Extent, Segment, sign_of};
 use crate::track::arc::Kept;
 use crate::track::{Stop, StopKind};
 
@@ -34,9 +36,83 @@ pub(super) fn segments(
     let objects = problem.objects.iter().enumerate();
     let found = objects.filter_map(|(object, of)| {
         let extent = extent(&of.shape)?;
-        Some(Segment { object, extent })
+        Some(Segment {
+            object,
+            other: None,
+            extent,
+        })
     });
     found.collect()
+}
+
+/// All pairs of lines and arcs in closed outlines of a sketch in the plane that are apart as they are drawn, and are to stay so: those without a
+/// common end; and lines with one, which are not to fold onto each other. And the names of those that are not apart, or cannot be told to
+/// be. `is_same`: as of [`segments`].
+///
+/// What is left of the drawing where all lines and arcs are taken away, again and again, of which an end is no other's is closed outlines, with
+/// lines across them if there are such.
+pub(super) fn apart(
+    problem: &Problem,
+    is_same: impl Fn(usize, usize, usize) -> bool,
+) -> (Vec<Segment>, Vec<String>) {
+    let is_one = |p: usize, q: usize| p == q || (0..2).all(|axis| is_same(p, q, axis));
+    let objects = problem.objects.iter().enumerate();
+    let edges = objects.filter_map(|(object, of)| match of.shape {
+        Shape::Line([a, b]) => Some((object, vec![a, b])),
+        Shape::Arc { center, start, end } => Some((object, vec![center, start, end])),
+        _ => None,
+    });
+    let mut edges: Vec<(usize, Vec<usize>)> = match problem.dimension {
+        2 => edges.collect(),
+        _ => Vec::new(),
+    };
+    let ends = |edge: &[usize]| [edge[edge.len() - 2], edge[edge.len() - 1]];
+    loop {
+        let goes_on = |(object, edge): &(usize, Vec<usize>)| {
+            ends(edge).iter().all(|&p| {
+                let mut others = edges.iter().filter(|(other, _)| other != object);
+                others.any(|(_, other)| ends(other).iter().any(|&q| is_one(p, q)))
+            })
+        };
+        let kept: Vec<_> = edges
+            .iter()
+            .filter(|&edge| goes_on(edge))
+            .cloned()
+            .collect();
+        if kept.len() == edges.len() {
+            break;
+        }
+        edges = kept;
+    }
+    let drawn = |p: usize| problem.points[p].place().each(point);
+    let (mut pairs, mut others) = (Vec::new(), Vec::new());
+    for (k, (object, one)) in edges.iter().enumerate() {
+        for (other, two) in &edges[..k] {
+            let common = [[0, 0], [0, 1], [1, 0], [1, 1]].into_iter();
+            let common = common.filter(|&[i, j]| is_one(ends(one)[i], ends(two)[j]));
+            let extent = match &common.collect::<Vec<_>>()[..] {
+                [] => Extent::Apart {
+                    points: [&one[..], two].concat(),
+                    first: one.len(),
+                },
+                [[i, j]] if one.len() == 2 && two.len() == 2 => Extent::Sweep {
+                    points: [one[*i], one[1 - i], two[1 - j]],
+                },
+                _ => continue,
+            };
+            if extent.sign(|k| drawn(extent.points()[k]), sign_of) == 0 {
+                let [a, b] = [*other, *object].each(|k| &problem.objects[k].name);
+                others.push(format!("{a} and {b}"));
+                continue;
+            }
+            pairs.push(Segment {
+                object: *object,
+                other: Some(*other),
+                extent,
+            });
+        }
+    }
+    (pairs, others)
 }
 
 /// Whether points are said to have the same coordinate along an axis, by a constraint that names both, or the line between them.
@@ -44,8 +120,9 @@ pub(super) fn is_same_by_constraint(
     problem: &Problem,
 ) -> impl Fn(usize, usize, usize) -> bool + '_ {
     move |a, b, axis| {
-        let key = ["vertical", "horizontal"][axis];
-        let mut constraints = problem.constraints.iter().filter(|c| c.kind == key);
+        let keys = [["vertical", "horizontal"][axis], "coincident"];
+        let constraints = problem.constraints.iter();
+        let mut constraints = constraints.filter(|c| keys.contains(&&*c.kind));
         constraints.any(|c| match c.items[..] {
             [Item::Object(o)] => {
                 matches!(problem.objects[o].shape, Shape::Line(ends) if ends == [a, b] || ends == [b, a])
@@ -109,10 +186,15 @@ pub(super) fn first_lost(
     end: (f64, f64),
     is_asked: impl Fn(usize) -> bool,
 ) -> Option<(&Kept, (f64, f64))> {
-    let lost = kept.iter().filter(|kept| kept.sign != 0);
-    let lost = lost.filter_map(|kept| Some((kept, kept.lost?)));
+    let lost = kept.iter().filter_map(|kept| match kept.sign {
+        // Two edges that were apart as they were drawn.
+        0 if kept.other.is_some() => Some((kept, (0.0, 0.0))),
+        0 => None,
+        _ => Some((kept, kept.lost?)),
+    });
     // What cannot be told from the end of the path is no end before it; but t = 1 is to be reached by a figure.
-    let before = lost.filter(|(kept, t)| (t.1 < end.0 || end.0 >= 1.0) && !is_asked(kept.object));
+    let is_asked = |kept: &Kept| kept.other.is_none() && is_asked(kept.object);
+    let before = lost.filter(|(kept, t)| (t.1 < end.0 || end.0 >= 1.0) && !is_asked(kept));
     let first = before.min_by(|a, b| a.1.0.total_cmp(&b.1.0));
     first.map(|(kept, t)| (kept, (t.0.max(0.0), t.1.min(1.0))))
 }
@@ -125,6 +207,13 @@ pub(super) const NARROWER: [f64; 2] = [1e-4, 1e-9];
 pub(super) fn stop(problem: &Problem, kept: &Kept) -> Stop {
     let object = &problem.objects[kept.object];
     let name = &object.name;
+    if let Some(other) = kept.other {
+        let words = format!(
+            "there the edges {} and {name} come to touch (or so near to it that it cannot be told)",
+            problem.objects[other].name
+        );
+        return Stop::new(StopKind::Touches, words);
+    }
     let words = match (&object.shape, kept.sign) {
         (Shape::Arc { .. }, ..=-1) => format!(
             "there the arc {name} grows to a whole circle (or so near to it that it cannot be told), and beyond it would begin anew"
@@ -141,11 +230,32 @@ pub(super) fn stop(problem: &Problem, kept: &Kept) -> Stop {
     Stop::new(StopKind::Vanishes, words)
 }
 
+/// Of which edges it is proved that they stay apart, in words, where that was asked for. `is_same`: as of [`segments`].
+pub(super) fn apart_in_words(
+    problem: &Problem,
+    kept: &[Kept],
+    is_same: impl Fn(usize, usize, usize) -> bool,
+) -> Option<String> {
+    let pairs = kept.iter().filter(|kept| kept.other.is_some()).count();
+    if pairs == 0 {
+        return None;
+    }
+    let not = match apart(problem, is_same).1 {
+        others if others.is_empty() => String::new(),
+        others => format!(
+            "; not {}, which touch as they are drawn, or cannot be told from it",
+            list_of(&others, 3)
+        ),
+    };
+    Some(format!(
+        "edges of closed outlines stay apart, proved of {pairs} pairs{not}"
+    ))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::interval::{hull, point};
-    use crate::system::sign_of;
+    use crate::interval::hull;
 
     #[test]
     fn an_arc_vanishes_at_0_and_360_degrees_and_not_at_180() {

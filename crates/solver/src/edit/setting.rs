@@ -1,5 +1,6 @@
 //! Which dimension is to become how long.
 
+use super::computed::of_parameter;
 use super::ending::Dimension;
 use crate::constraint::{self, MOST_TURN, Measure};
 use crate::interval::angle::{degrees_of_cosine, direction};
@@ -271,6 +272,12 @@ impl Setting {
     pub fn named(problem: &Problem, name: &str, value: &str) -> Result<Self, SettingError> {
         let name = name.trim();
         let is_led = is_led_alone(problem, name);
+        if let Some(expression) = of_parameter(problem, name) {
+            return Err(SettingError::Computed(
+                name.to_owned(),
+                expression.to_owned(),
+            ));
+        }
         if problem.parameters.iter().any(|(other, _)| other == name) && !is_led {
             return Err(SettingError::Parameter(name.to_owned()));
         }
@@ -316,7 +323,7 @@ impl Setting {
 }
 
 /// Whether a parameter is a dimension and nothing else: it stands in equations, and nothing is computed from it.
-pub(super) fn is_led_alone(problem: &Problem, name: &str) -> bool {
+fn is_led_alone(problem: &Problem, name: &str) -> bool {
     let has = |value: &Decimal| {
         let expression = value.expression();
         expression.is_some_and(|expression| names(expression).any(|other| other == name))

@@ -30,6 +30,8 @@ pub struct Sweep {
     pub frames: Vec<Frame>,
     /// How the sweep ended before the last frame, if it did: the edit that would have led to the next.
     pub end: Option<Edited>,
+    /// The dimensions that are led, by index: frames tell the value of the first, and a file computes the others.
+    pub led: Vec<usize>,
     /// What all of it is proved of: how all frames stand to what was left out.
     pub account: Account,
 }
@@ -47,14 +49,28 @@ impl Session {
         frames: usize,
         control: &mut Control,
     ) -> Sweep {
-        assert!(frames >= 2, "a sweep has two frames at least");
-        let set = |length: Decimal| [Setting::to(index, length)];
-        let approach = self.lead(&set(from.clone()), control);
+        let values = evenly(from, to, frames);
+        self.sweep_through(values.map(|value| vec![Setting::to(index, value)]), control)
+    }
+
+    /// Leads dimensions from each of these settings to the next: frames tell the first one's value. All are settings of the same dimensions.
+    ///
+    /// # Panics
+    /// If there are none, or the problem has no such dimension.
+    pub fn sweep_through(
+        &mut self,
+        mut settings: impl Iterator<Item = Vec<Setting>>,
+        control: &mut Control,
+    ) -> Sweep {
+        let first = settings.next().expect("a sweep begins somewhere");
+        let index = first[0].index;
+        let approach = self.lead(&first, control);
         let mut sweep = Sweep {
             account: approach.account.clone(),
             approach,
             frames: Vec::new(),
             end: None,
+            led: first.iter().map(|setting| setting.index).collect(),
         };
         if sweep.approach.ending != Ending::Reached {
             return sweep;
@@ -65,9 +81,8 @@ impl Session {
             objects: session.objects(),
         };
         sweep.frames.push(frame(self));
-        for k in 1..frames {
-            let value = between(from, to, k, frames - 1);
-            let edited = self.lead(&set(value), control);
+        for settings in settings {
+            let edited = self.lead(&settings, control);
             if edited.ending != Ending::Reached {
                 sweep.end = Some(edited);
                 break;
@@ -79,8 +94,24 @@ impl Session {
     }
 }
 
+/// So many numbers at equal distances, both ends among them.
+///
+/// # Panics
+/// If there are fewer than two.
+pub fn evenly<'a>(
+    from: &'a Decimal,
+    to: &'a Decimal,
+    count: usize,
+) -> impl Iterator<Item = Decimal> + 'a {
+    assert!(count >= 2, "a sweep has two frames at least");
+    (0..count).map(move |k| between(from, to, k, count - 1))
+}
+
 /// `from + (to − from) k / n`, to seventeen digits behind the point of the larger; the ends exactly.
 fn between(from: &Decimal, to: &Decimal, k: usize, n: usize) -> Decimal {
+    if k == 0 {
+        return from.clone();
+    }
     if k == n || from.value() == to.value() {
         return to.clone();
     }

@@ -4,7 +4,7 @@ use super::drag::Drag;
 use super::ending::{Edited, Ending, Keep, Limit, Orientations};
 use super::open::Moved;
 use super::parts::Parts;
-use super::segments::{NARROWER, Reversed, first_lost, stop};
+use super::segments::{NARROWER, Reversed, apart_in_words, first_lost, stop};
 use super::setting::Setting;
 use crate::blocks::Account;
 use crate::interval::{Interval, hull};
@@ -93,6 +93,9 @@ pub(super) trait Way: std::fmt::Debug + Send {
             ArcEnd::Stopped(reason) => (Ending::Stopped(reason), None),
         };
         let figure = there.as_ref().unwrap_or(self.figure());
+        let is_same = |a: usize, b: usize, axis: usize| self.is_same(a, b, axis);
+        let apart = apart_in_words(self.problem(), &run.segments, is_same);
+        let remarks = self.remarks().into_iter().chain(apart);
         Edited {
             ending,
             t: run.t,
@@ -103,7 +106,7 @@ pub(super) trait Way: std::fmt::Debug + Send {
             tubes: run.steps,
             rejected: run.rejected,
             length: run.length,
-            switched_on: [self.remarks(), run.switched_on].concat(),
+            switched_on: remarks.chain(run.switched_on).collect(),
             account,
             singular: None,
             astray: None,
@@ -150,7 +153,8 @@ pub(super) trait Way: std::fmt::Debug + Send {
         let is_same = |a: usize, b: usize, axis: usize| self.is_same(a, b, axis);
         let is_zero = |p: usize, axis: usize| self.is_zero(p, axis);
         let is_asked = |object: usize| {
-            let segment = self.segments().iter().find(|s| s.object == object);
+            let mut segments = self.segments().iter();
+            let segment = segments.find(|s| s.object == object && s.other.is_none());
             segment.is_some_and(|s| reversed.iter().any(|r| r.is_of(s, is_same, is_zero)))
         };
         let (kept, t) = first_lost(&run.segments, run.t, is_asked)?;

@@ -5,7 +5,7 @@ use super::open::{self, Moved, OpenError};
 use super::parts::MOST_TUBES;
 use super::parts::senses::senses;
 use super::place::Stand;
-use super::segments::{is_same_by_constraint, segments};
+use super::segments::{apart, is_same_by_constraint, segments};
 use super::setting::Setting;
 use super::way::Way;
 use crate::blocks::Account;
@@ -69,6 +69,10 @@ impl Whole {
                 Homotopy::with_constraints(&problem, typical_length(&problem), |_| lowered.tail)?;
             homotopy.followed = senses(&problem);
             homotopy.segments = segments(&problem, is_same_by_constraint(&problem));
+            if options.simple {
+                let pairs = apart(&problem, is_same_by_constraint(&problem));
+                homotopy.segments.extend(pairs.0);
+            }
             homotopy
         };
         if homotopy.equations > LARGEST_SQUARE {

@@ -1,6 +1,7 @@
 //! Angles in the plane that are set beyond 0 or 180 degrees: followed as turns.
 
-use super::setting::{Setting, SettingError, is_led_alone, measure, number, read};
+use super::computed::{of_parameter, sources};
+use super::setting::{Setting, SettingError, measure, number, read};
 use super::write::direction;
 use crate::constraint::{Arguments, LineName, Measure, is_opposite_nearer, order_of_kind};
 use crate::interval::Real;
@@ -25,13 +26,33 @@ pub struct Asked {
     pub parameters: Vec<(String, Decimal)>,
 }
 
-/// The dimensions that are computed, by index, and what they are with these parameters: those that are others then, or else all.
+/// Dimensions by index, each with a new value.
+type Numbers = Vec<(usize, Decimal)>;
+/// The parameters of a problem.
+type Parameters = Vec<(String, Decimal)>;
+
+/// What of a file follows from parameters.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Follow {
+    /// Dimensions that are others then, or else all that are computed.
+    Changed,
+    /// All that is computed from what is set, whatever it is then; first what is set, if it is a dimension.
+    Tied,
+}
+
+/// The dimensions that are computed, by index, and what they are where these of the parameters are `set`.
 fn following(
     problem: &Problem,
-    parameters: &[(String, Decimal)],
-) -> Result<Vec<(usize, Decimal)>, SettingError> {
+    (parameters, set): (&Parameters, &Parameters),
+    follow: Follow,
+) -> Result<Numbers, SettingError> {
     let mut out = Vec::new();
+    let is_set = |name: &str| set.iter().any(|(other, _)| other == name);
     for index in problem.dimensions() {
+        let is_tied = || sources(problem, index).into_iter().any(is_set);
+        if follow == Follow::Tied && !is_tied() {
+            continue;
+        }
         let Some(now) = number(problem, index) else {
             continue;
         };
@@ -41,10 +62,11 @@ fn following(
         let value = evaluate(expression, parameters);
         let name = || problem.dimension_name(index);
         let value = value.map_err(|why| SettingError::Expression(name(), why))?;
-        if value != *now
-            && index < problem.distances.len()
-            && matches!(problem.distances[index].target, Target::SquaredLength(_))
-        {
+        let target = problem.distances.get(index).map(|d| &d.target);
+        if matches!(target, Some(Target::SquaredLength(_))) {
+            if value == *now && !is_tied() {
+                continue;
+            }
             let why =
                 "a squared length that is computed cannot be edited: give the length".to_owned();
             return Err(SettingError::Expression(name(), why));
@@ -52,8 +74,13 @@ fn following(
         out.push((index, value));
     }
     let is_other = |(index, value): &(usize, Decimal)| number(problem, *index) != Some(value);
-    if out.iter().any(is_other) {
-        out.retain(is_other);
+    match follow {
+        Follow::Changed if out.iter().any(is_other) => out.retain(is_other),
+        Follow::Changed => {}
+        Follow::Tied => {
+            let label = |index: &usize| problem.labels.get(index);
+            out.order_by_key(|(index, _)| !label(index).is_some_and(|name| is_set(name)));
+        }
     }
     Ok(out)
 }
@@ -65,21 +92,26 @@ impl Asked {
     /// # Errors
     /// As [`Setting::named`].
     pub fn new(problem: &Problem, named: &[(&str, &str)]) -> Result<Self, SettingError> {
-        Self::of(problem, named, |_| false)
+        let (given, parameters) = Self::of(problem, named, (Follow::Changed, &mut HashMap::new()))?;
+        Self::led(problem, parameters, given)
     }
 
-    /// The same; `is_dimension`: whether what has the name of a parameter is a dimension all the same.
-    fn of(
+    /// What settings lead, and the parameters then. `indices`: of dimensions that were found by their names.
+    fn of<'n>(
         problem: &Problem,
-        named: &[(&str, &str)],
-        is_dimension: impl Fn(&str) -> bool,
-    ) -> Result<Self, SettingError> {
-        let mut indices: HashMap<&str, usize> = HashMap::new();
+        named: &[(&'n str, &str)],
+        (follow, indices): (Follow, &mut HashMap<&'n str, usize>),
+    ) -> Result<(Numbers, Parameters), SettingError> {
         let mut given = Vec::with_capacity(named.len());
-        let mut set: Vec<(String, Decimal)> = Vec::new();
+        let mut set = Parameters::new();
         for &(name, value) in named {
-            let is_parameter = problem.parameters.iter().any(|(other, _)| other == name);
-            if is_parameter && !is_dimension(name) {
+            if problem.parameters.iter().any(|(other, _)| other == name) {
+                if let Some(expression) = of_parameter(problem, name) {
+                    return Err(SettingError::Computed(
+                        name.to_owned(),
+                        expression.to_owned(),
+                    ));
+                }
                 let value = read(value, || name.to_owned())?;
                 if set.iter().any(|(other, _)| other == name) {
                     return Err(SettingError::Twice(name.to_owned()));
@@ -99,9 +131,7 @@ impl Asked {
             };
             indices.insert(name, index);
             let value = read(value, || problem.dimension_name(index))?;
-            if !is_parameter
-                && let Some(expression) = number(problem, index).and_then(Decimal::expression)
-            {
+            if let Some(expression) = number(problem, index).and_then(Decimal::expression) {
                 let name = problem.dimension_name(index);
                 return Err(SettingError::Computed(name, expression.to_owned()));
             }
@@ -110,13 +140,13 @@ impl Asked {
         let parameters = with_set(&problem.parameters, &set)
             .map_err(|(name, why)| SettingError::Expression(name, why))?;
         if !set.is_empty() {
-            let followed = following(problem, &parameters)?;
+            let followed = following(problem, (&parameters, &set), follow)?;
             if followed.is_empty() {
                 return Err(SettingError::Unused(set.swap_remove(0).0));
             }
             given.extend(followed);
         }
-        Self::led(problem, parameters, given)
+        Ok((given, parameters))
     }
 
     /// Dimensions by index, each with its new value, and the parameters as they are then.
@@ -155,17 +185,47 @@ impl Asked {
         })
     }
 
-    /// Settings of dimensions alone, as [`Asked::new`]: one or several rows of them.
+    /// Rows of settings, each of `columns` names, as [`Asked::new`]: all rows lead the same dimensions in the same order, those named and all
+    /// that are computed from what is. The parameters are those of the last row.
     ///
     /// # Errors
-    /// As there; and one is of a parameter.
-    pub fn of_dimensions(problem: &Problem, named: &[(&str, &str)]) -> Result<Self, SettingError> {
-        let mut parameters = problem.parameters.iter();
-        let is_named = |name: &String| named.iter().any(|(other, _)| other == name);
-        match parameters.find(|(name, _)| is_named(name) && !is_led_alone(problem, name)) {
-            Some((name, _)) => Err(SettingError::Parameter(name.clone())),
-            None => Self::of(problem, named, |name| is_led_alone(problem, name)),
+    /// As there.
+    pub fn rows(
+        problem: &Problem,
+        named: &[(&str, &str)],
+        columns: usize,
+    ) -> Result<Self, SettingError> {
+        let (mut given, mut parameters) = (Numbers::new(), problem.parameters.clone());
+        let mut indices = HashMap::new();
+        for row in named.chunks(columns) {
+            let (numbers, now) = Self::of(problem, row, (Follow::Tied, &mut indices))?;
+            given.extend(numbers);
+            parameters = now;
         }
+        Self::led(problem, parameters, given)
+    }
+
+    /// The first `count` settings with other values: of the dimension or parameter `name` this one, of the others what is computed then.
+    ///
+    /// # Errors
+    /// As [`Asked::new`].
+    pub fn with(
+        &self,
+        count: usize,
+        (name, value): (&str, &Decimal),
+    ) -> Result<Vec<Setting>, SettingError> {
+        let problem = &self.problem;
+        let parameters = with_set(&problem.parameters, &[(name.to_owned(), value.clone())]);
+        let parameters = parameters.map_err(|(name, why)| SettingError::Expression(name, why))?;
+        let settings = self.settings[..count].iter().map(|setting| {
+            let index = setting.index;
+            let expression = number(problem, index).and_then(Decimal::expression);
+            let value = expression.map_or(Ok(value.clone()), |text| evaluate(text, &parameters));
+            let name = || problem.dimension_name(index);
+            let value = value.map_err(|why| SettingError::Expression(name(), why))?;
+            Setting::new(problem, index, value)
+        });
+        settings.collect()
     }
 
     /// The first angle that is set to 0 or 180 degrees and whole turns, or is computed and goes beyond these, by index in `given`: the problem.

@@ -327,7 +327,13 @@ impl ProblemBuilder {
         let find = |place: Place, what: &str, name: &str| {
             let unknown = || {
                 let known = points.iter().map(|p| p.name.as_str());
-                ProblemError::unknown(place, what, ("point", name), known)
+                let error = ProblemError::unknown(place, what, ("point", name), known);
+                self.body_with(name).map_or(error.clone(), |body| {
+                    let text = format!(
+                        "{error}; a point of the body `{body}` stands under `points` as well, where it is drawn"
+                    );
+                    ProblemError::at(place, text)
+                })
             };
             index_of.get(name).copied().ok_or_else(unknown)
         };

@@ -204,6 +204,18 @@ impl ProblemBuilder {
         self
     }
 
+    /// The name of the body that has a point of this name.
+    pub(super) fn body_with(&self, point: &str) -> Option<&str> {
+        let mut bodies = self.objects.iter();
+        let has = |shape: &DraftShape| match shape {
+            DraftShape::Body(points) => points.iter().any(|(name, _)| name == point),
+            _ => false,
+        };
+        bodies
+            .find(|draft| has(&draft.shape))
+            .map(|draft| &*draft.name)
+    }
+
     /// The objects, with their names looked up.
     pub(super) fn finished_objects(
         &self,

@@ -105,8 +105,10 @@ pub struct Orientation {
 pub struct Kept {
     /// The object, by index.
     pub object: usize,
+    /// The other edge, of two that are not to touch.
+    pub other: Option<usize>,
     /// The sign of a line's length along its axis; of an arc, that of the sine of its angle where that was certain last. 0: not
-    /// certain at t = 0.
+    /// certain at t = 0. Of two edges 1, if they are certain to be apart.
     pub sign: i8,
     /// Where along the path it could not be proved not to vanish, if anywhere: the first such range of t.
     pub lost: Option<(f64, f64)>,

@@ -34,6 +34,8 @@ pub struct Options {
     /// Certified mode: whatever stops the run one way, but an interrupt, it is followed the other way as well, and both are ends of
     /// the path ([`super::EndKind::Stopped`]).
     pub both_ways: bool,
+    /// Edits of sketches in the plane: edges of closed outlines that are apart stay so, and a run ends where they come to touch.
+    pub simple: bool,
     /// The threshold α on the distance to a boundary configuration (RR 8705, section 4.2) at
     /// which the construction plan is changed. Between 0 and ½.
     pub alpha: f64,
@@ -78,6 +80,7 @@ impl Options {
             tube_radius: None,
             reverse: false,
             both_ways: false,
+            simple: false,
             alpha: 0.1,
             extended: true,
             threads: 1,

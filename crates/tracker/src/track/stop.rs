@@ -30,6 +30,8 @@ crate::named! {
         Undefined = "undefined",
         /// A drawn line or arc shrinks to nothing, or an arc grows to a whole circle, and would come out turned round.
         Vanishes = "vanishes",
+        /// Two edges of outlines come to touch.
+        Touches = "touches",
         /// It cannot be told whether t is 1 somewhere, or whether two solutions are one, or congruent.
         Undecided = "undecided",
         /// A constraint that seemed to follow from the others does not.

@@ -165,7 +165,12 @@ impl Parts {
     ) -> Vec<Kept> {
         let paths = self.paths(exact);
         let mut out = Vec::new();
-        for Segment { object, extent } in &self.segments {
+        for Segment {
+            object,
+            other,
+            extent,
+        } in &self.segments
+        {
             let (axes, points) = (self.axes(extent), extent.points());
             let of: Vec<usize> = self.places(points, axes).collect();
             if !self.move_exactly(&of, exact) {
@@ -191,6 +196,7 @@ impl Parts {
             };
             out.push(Kept {
                 object: *object,
+                other: *other,
                 sign: last,
                 lost,
             });

@@ -24,7 +24,7 @@ use crate::edit::drag::Drag;
 use crate::edit::ending::{Astray, Edited, Ending, Keep, Limit};
 use crate::edit::lowered;
 use crate::edit::open::{Moved, OpenError, furthest, reached};
-use crate::edit::segments::segments;
+use crate::edit::segments::{apart, segments};
 use crate::edit::setting::Setting;
 use crate::edit::way::Way;
 use crate::interval::{Interval, Real, hull, point};
@@ -149,15 +149,20 @@ impl Parts {
             let scale = unit.powi(unknown.power);
             value.enclose() * point(1.0 / scale)
         }));
+        let is_same = |a: usize, b: usize, axis: usize| {
+            let place = |p: usize| system.coordinates[p * problem.dimension + axis];
+            place(a) == place(b)
+        };
+        let mut segments = segments(problem, is_same);
+        if options.simple {
+            segments.extend(apart(problem, is_same).0);
+        }
         let mut parts = Parts {
             senses: senses::senses(asked),
             followed: senses::followed(asked),
             contacts,
             plain,
-            segments: segments(problem, |a, b, axis| {
-                let place = |p: usize| system.coordinates[p * problem.dimension + axis];
-                place(a) == place(b)
-            }),
+            segments,
             options: Options {
                 space: crate::track::Space::Full,
                 reverse: false,
@@ -241,7 +246,7 @@ impl Parts {
     fn axes(&self, extent: &Extent) -> Range<usize> {
         match *extent {
             Extent::Along { axis, .. } => axis..axis + 1,
-            Extent::Sweep { .. } => 0..self.cut.problem.dimension,
+            Extent::Sweep { .. } | Extent::Apart { .. } => 0..self.cut.problem.dimension,
         }
     }
 

@@ -8,7 +8,7 @@ use super::piece::{Along, Piece};
 use crate::linalg::Vector;
 use crate::order::each_once;
 use crate::places::{Each as _, array};
-use crate::system::{Extent, Homotopy, determinant, simplices};
+use crate::system::{Homotopy, Segment, determinant, simplices};
 use crate::track::arc::{Figure, Kept, Orientation};
 
 /// A tube is cut into at most 2 to this power pieces to tell a sign.
@@ -31,10 +31,10 @@ pub struct Orientations {
 /// A triangle in the plane, a tetrahedron in space; or a line or arc.
 #[derive(Debug)]
 struct Simplex {
-    /// The object and its extent, of a line or arc.
-    segment: Option<(usize, Extent)>,
+    /// The line or arc, or the two edges.
+    segment: Option<Segment>,
     /// The entries of its points' coordinates, point by point.
-    entries: [[u32; 3]; 4],
+    entries: [[u32; 3]; 6],
     what: Orientation,
 }
 
@@ -64,7 +64,7 @@ impl Orientations {
         };
         let segments = homotopy.segments.iter().map(|segment| {
             let points = segment.extent.points().to_vec();
-            simplex(points, Some((segment.object, segment.extent.clone())))
+            simplex(points, Some(segment.clone()))
         });
         let all = all.into_iter().map(|points| simplex(points, None));
         Orientations {
@@ -126,7 +126,7 @@ impl Orientations {
             let (sign, before) = (simplex.sign(piece), simplex.what.sign);
             match &simplex.segment {
                 None => sign != before,
-                Some((_, extent)) if extent.goes_with(before, sign) => {
+                Some(segment) if segment.extent.goes_with(before, sign) => {
                     simplex.what.sign = sign;
                     false
                 }
@@ -160,9 +160,10 @@ impl Orientations {
     /// What became of all lines and arcs.
     pub fn segments(&self) -> Vec<Kept> {
         let segments = self.all.iter().filter_map(|simplex| {
-            let (object, _) = simplex.segment.as_ref()?;
+            let segment = simplex.segment.as_ref()?;
             Some(Kept {
-                object: *object,
+                object: segment.object,
+                other: segment.other,
                 sign: simplex.what.sign,
                 lost: simplex.what.lost,
             })
@@ -175,13 +176,13 @@ impl Simplex {
     /// The sign, where it is the same for every θ and within all radii; otherwise 0.
     fn sign(&self, piece: &Piece) -> i8 {
         let at = |k: usize| self.entries[k].each(|i| piece.at(i as usize));
-        // A term of `rest` goes through fewer than 12 roundings in a product, 5 in a sum, of which there are two and four.
+        // A term of `rest` goes through fewer than 12 roundings in a product, 5 in a sum, of which there are at most two and five.
         let certain = |value: Along| {
             let error = value.reach(60);
             i8::from(value.value > error) - i8::from(value.value < -error)
         };
         match &self.segment {
-            Some((_, extent)) => extent.sign(at, certain),
+            Some(segment) => segment.extent.sign(at, certain),
             None => {
                 let count = self.what.points.len();
                 assert!(count == 4 || piece.is_last(self.entries[0][2] as usize));
