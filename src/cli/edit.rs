@@ -10,7 +10,7 @@ use super::{BAD_INPUT, CLOSED, LIMIT, PASSES, STOPPED, input, interrupt, serve};
 use krawl::blocks::Account;
 use krawl::edit::{Asked, Astray, Drag, Edited, Ending, OpenError, Session, Setting};
 use krawl::import::{Followed, Format};
-use krawl::problem::{Problem, Shape};
+use krawl::problem::Problem;
 use krawl::remarks::moves;
 use krawl::report::{
     Document, account_in_words, edit_to_table, followed_to_table, signs_of_figure,
@@ -73,7 +73,7 @@ pub struct Arguments {
     ///
     /// It is checked as `verify` does. Where it does not pass, the exit code is that of `verify`. The figure is then
     /// followed as a whole, with what nothing determines held where it is
-    #[arg(long, value_name = "FILE", conflicts_with = "serve")]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["serve", "simple"])]
     cert: Option<PathBuf>,
     /// Do not check the certificate that was written
     #[arg(long, requires = "cert", hide_short_help = true)]
@@ -371,11 +371,12 @@ pub(super) fn commit(
     }
 }
 
-/// What is said of a drawing that is singular, a line of text; nothing of others.
+/// What is said of a drawing that is singular, and of outlines that are kept apart, a line of text each.
 pub(super) fn drawn_in_words(problem: &Problem, session: &Session) -> String {
-    session.singular().map_or(String::new(), |singular| {
-        format!("{}: {}\n", problem.name, singular.in_words())
-    })
+    let singular = session.singular().map(|singular| singular.in_words());
+    let all = singular.into_iter().chain(session.outlines_in_words());
+    all.map(|words| format!("{}: {words}\n", problem.name))
+        .collect()
 }
 
 /// Says before anything else that a sketch seems to move, where it does.
@@ -396,12 +397,6 @@ pub(super) fn open(
     options: &Options,
     control: &mut Control,
 ) -> Result<Session, Refusal> {
-    let mut shapes = problem.objects.iter().map(|object| &object.shape);
-    if options.simple && !shapes.any(|s| matches!(s, Shape::Line(_) | Shape::Arc { .. })) {
-        let what =
-            "--simple: there are no lines between points and no arcs, so no outline is looked at";
-        output::complain(&in_file(file)(what));
-    }
     taken(Session::open_with(problem, options, control), file)
 }
 

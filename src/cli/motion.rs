@@ -108,15 +108,19 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
 
 /// Writes the certificate of a motion and checks it: the exit code where it does not pass.
 fn certify(motion: &Motion, path: &Path, is_quiet: bool) -> Result<Option<u8>, Refusal> {
-    let beside = Beside::new(path)?;
-    let mut writer = beside.certificate(motion.certified());
-    let told = motion.tell(
-        &Options::certified(),
-        &mut interrupt::witnessed(Some(&mut writer)),
-    );
-    told.map_err(|error| format!("no certificate was written: {error}"))?;
-    match beside.commit(writer.finish().map(|_| ())) {
-        true => Ok(check_written(Some(path), motion.is_told(), is_quiet)?),
-        false => Ok(Some(BAD_INPUT)),
+    let mut options = Options::certified();
+    loop {
+        let beside = Beside::new(path)?;
+        let mut writer = beside.certificate(motion.certified());
+        let told = motion.tell(&options, &mut interrupt::witnessed(Some(&mut writer)));
+        let is_other = told.map_err(|error| format!("no certificate was written: {error}"))?;
+        if is_other && !options.reverse {
+            options.reverse = true;
+            continue;
+        }
+        return match beside.commit(writer.finish().map(|_| ())) {
+            true => Ok(check_written(Some(path), motion.is_told(), is_quiet)?),
+            false => Ok(Some(BAD_INPUT)),
+        };
     }
 }

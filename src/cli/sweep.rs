@@ -75,7 +75,7 @@ pub struct Arguments {
     ///
     /// It is checked as `verify` does. Where it does not pass, the exit code is that of `verify`. The figure is then
     /// followed as a whole, with what nothing determines held where it is
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", conflicts_with = "simple")]
     cert: Option<PathBuf>,
     /// Do not check the certificate that was written
     #[arg(long, requires = "cert", hide_short_help = true)]

@@ -4,6 +4,7 @@ use super::certain_digits;
 use super::columns::Grid;
 use super::edit::{behind, edit_in_words, limit_in_words, short, write_moved};
 use super::measured::{Measures, Placed};
+use crate::blocks::Account;
 use crate::edit::{Edited, End, Ending, Moved, Range, Sweep};
 use crate::interval::{Bound, Interval};
 use crate::problem::{Problem, list};
@@ -21,7 +22,15 @@ pub fn ranges_to_table(problem: &Problem, ranges: &[Range], moved: Moved) -> Str
     }
     write_moved(&mut out, problem, moved);
     out.push('\n');
-    let account = ranges.iter().map(|range| range.account.clone());
+    // Of several each has its own.
+    let is_one = ranges.len() == 1;
+    let account = ranges.iter().map(|range| Account {
+        held_though_computed: match is_one {
+            true => range.account.held_though_computed.clone(),
+            false => Vec::new(),
+        },
+        ..range.account.clone()
+    });
     let account = account.reduce(|mut all, one| {
         all.join(&one);
         all
@@ -50,10 +59,23 @@ pub fn ranges_to_table(problem: &Problem, ranges: &[Range], moved: Moved) -> Str
              other coordinates held perhaps further. "
         }
     };
+    let others = ranges.iter().filter(|_| !is_one);
+    let others = others.map(|range| (range, &range.account.held_though_computed));
+    let others: Vec<_> = others.filter(|(_, held)| !held.is_empty()).collect();
+    let computed = match others.is_empty() {
+        true => "",
+        false => {
+            "Each goes alone, with what the file computes from the same parameters held where it is, as told below. "
+        }
+    };
     out += &format!(
-        "\n{loose}Every value is a limit{scope}, proved, and differs from the exact one by at most 1 in its last digit shown; but \
+        "\n{loose}{computed}Every value is a limit{scope}, proved, and differs from the exact one by at most 1 in its last digit shown; but \
          \"≤\" and \"≥\" say that no limit was met up to there, proved, and \"?\" that nothing could be proved beyond.{left_out}\n"
     );
+    for (range, held) in others {
+        let name = problem.dimension_name(range.index);
+        out += &format!("{name} goes with {}.\n", list(held, held.len()));
+    }
     for range in ranges {
         let ends = [
             (&range.low, "shrinks to", Bound::Upper),

@@ -192,23 +192,24 @@ fn edits(verdict: &Verdict) -> String {
 fn motion(verdict: &Verdict) -> String {
     let (problem, (low, high)) = (&verdict.problem, verdict.t_range);
     let led = verdict.motion.iter().flat_map(|claim| &claim.dimensions);
-    let led = led.map(|(index, value)| {
+    let (mut names, mut ranges) = (Vec::new(), String::new());
+    for (index, value) in led {
         let name = problem.dimension_name(*index as usize);
-        // Lengths are led in step with t.
-        let of_it = problem.distances.get(*index as usize);
-        let range = of_it.filter(|_| low <= high).map(|distance| {
-            let from = distance.target.enclose();
-            let to = Target::Length(value.clone()).enclose();
+        let distance = problem.distances.get(*index as usize);
+        if let Some(distance) = distance.filter(|_| low <= high) {
+            // It is led in step with t.
+            let [from, to] = [distance.target.clone(), Target::Length(value.clone())];
+            let [from, to] = [from.enclose(), to.enclose()];
             let at = |t: f64| from + point(t) * (to - from);
-            format!(
-                ", which stays between {} and {}",
-                Bound::Lower.decimals(at(low).inf().min(at(high).inf()), 6),
-                Bound::Upper.decimals(at(low).sup().max(at(high).sup()), 6)
-            )
-        });
-        name + &range.unwrap_or_default()
-    });
-    let led: Vec<String> = led.collect();
+            let both = at(low).convex_hull(at(high));
+            ranges += &format!(
+                " {name} stays between {} and {}.",
+                Bound::Lower.decimals(both.inf(), 6),
+                Bound::Upper.decimals(both.sup(), 6)
+            );
+        }
+        names.push(name);
+    }
     let from = match verdict.arcs.is_empty() {
         true => "The sketch meets its dimensions, exactly.",
         false => {
@@ -226,8 +227,8 @@ fn motion(verdict: &Verdict) -> String {
         }
     };
     let mut out = format!(
-        "{from} All constraints of the problem in this certificate, but for {}, stand still from there on: {what}.\n",
-        led.join(" and ")
+        "{from} From there on all constraints of the problem in this certificate stand still but for {}: {what}.{ranges}\n",
+        names.join(" and ")
     );
     if let Some(arc) = verdict.arcs.last() {
         write_figure(&mut out, verdict, &arc.figure);

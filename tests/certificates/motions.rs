@@ -105,6 +105,22 @@ fn damaged_motions_are_refused() {
     refused(&|c| motion(c, &|claim| claim.dimensions[0].0 = 0));
     refused(&|c| motion(c, &|claim| claim.dimensions.clear()));
     refused(&|c| motion(c, &|claim| claim.kept.push((vec![0, 1, 2], true))));
+    // Two that are led, a motion first that leads none, another edit before it.
+    refused(&|c| {
+        motion(c, &|claim| {
+            claim.dimensions.push((1, "4.1".parse().unwrap()))
+        })
+    });
+    refused(&|c| {
+        motion(c, &|claim| claim.dimensions.clear());
+        c.records.drain(..at).for_each(drop);
+    });
+    refused(&|c| {
+        let Record::Arc(claim) = &mut c.records[0] else {
+            panic!("the way to its dimensions");
+        };
+        claim.dimensions.push((0, "3.1".parse().unwrap()));
+    });
     // Without the way to its dimensions the sketch is no figure of it.
     refused(&|c| c.records.drain(..at).for_each(drop));
     refused(&|c| c.records.swap(at, at - 1));

@@ -138,6 +138,49 @@ fn what_crosses_as_it_is_drawn_is_named() {
     let setting = [Setting::parse(session.problem(), "y:d=-2").unwrap()];
     let edited = session.edit(&setting);
     assert_eq!(edited.ending, Ending::Reached);
-    let said = edited.switched_on.join("\n");
-    assert!(said.contains("not ab and cd"), "{said}");
+    let said = session.outlines_in_words().unwrap();
+    assert!(said.contains("Not ab and cd"), "{said}");
+}
+
+/// The way from the drawing to its own dimensions is looked at as well, part by part and as a whole; ends that coincide in a chain are one.
+#[test]
+fn no_way_leads_through_an_edge() {
+    let text = r#"
+name = "pushed through"
+dimension = 2
+[points]
+a = [0, 0]
+b = [10, 0]
+b2 = [10, 0]
+b3 = [10, 0]
+c = [10, 6]
+d = [5, 4]
+e = [0, 6]
+[lines]
+ab = ["a", "b"]
+bc = ["b3", "c"]
+cd = ["c", "d"]
+de = ["d", "e"]
+ea = ["e", "a"]
+[constraints]
+fixed = ["a", "b", "c", "e"]
+coincident = [["b", "b2"], ["b2", "b3"]]
+x = [["d", 5]]
+y = [["d", -1]]
+"#;
+    let problem = Problem::parse_loosely(text, "outline.toml").unwrap();
+    let options = Options {
+        simple: true,
+        ..Options::certified()
+    };
+    let mut writer = krawl::certificate::Writer::new(Vec::new(), &problem);
+    let mut witnessed = Control {
+        witness: Some(&mut writer),
+        ..Control::default()
+    };
+    for control in [&mut Control::default(), &mut witnessed] {
+        let error = Session::open_with(&problem, &options, control).err();
+        let said = error.expect("it is not opened").to_string();
+        assert!(said.contains("come to touch"), "{said}");
+    }
 }

@@ -1016,7 +1016,9 @@ def check(data):
         if at == len(kinds):
             assert ending == 0 and solutions == 0, "the order of records"
             return count, f"{kinds.count('arc')} edits"
-        assert "arc" not in kinds[at:] and kinds.count("motion") == 1 and not records[at][1][1], "the order of records"
+        led, signs = records[at][1]
+        assert "arc" not in kinds[at:] and kinds.count("motion") == 1 and len(led) == 1 and not signs, "the order of records"
+        assert not any(kind == "arc" and claim[0] for kind, claim in records[:at]), "nothing is led before a motion"
         records, kinds, what = records[at + 1:], kinds[at + 1:], "a motion, "
     assert (ending == 2) == ("turn" in kinds), "the order of records"
 

@@ -29,6 +29,9 @@ pub struct Reader<R> {
     tubes: u64,
     solutions: usize,
     stage: Stage,
+    /// Whether an arc led a dimension, and whether what follows is a motion.
+    has_led: bool,
+    is_motion: bool,
 }
 
 /// What may stand next.
@@ -79,6 +82,8 @@ impl<R: Read> Reader<R> {
             tubes: 0,
             solutions: 0,
             stage: Stage::Begun,
+            has_led: false,
+            is_motion: false,
         })
     }
 
@@ -102,12 +107,14 @@ impl<R: Read> Reader<R> {
             (TAG_TUBE | TAG_EXTENDED, stage @ (Stage::Path { .. } | Stage::Along)) => stage,
             (TAG_SOLUTION, stage @ Stage::Path { .. }) => stage,
             (TAG_TURN, stage) if stage == path(false, false) => changed(true, false),
-            (TAG_DIVIDE, Stage::Path { turned, divided }) if !divided => changed(turned, true),
+            (TAG_DIVIDE, Stage::Path { turned, divided }) if !divided && !self.is_motion => {
+                changed(turned, true)
+            }
             (TAG_RETURN, Stage::Path { turned, divided }) if divided => changed(turned, false),
             (TAG_ARC | TAG_ARC_OF_DIMENSIONS, Stage::Begun | Stage::Reached) => Stage::Arc,
             (TAG_REACHED, Stage::Along) => Stage::Reached,
             (TAG_FOLD, Stage::Along) => Stage::Fold,
-            (TAG_MOTION, Stage::Begun | Stage::Reached) => changed(false, false),
+            (TAG_MOTION, Stage::Begun | Stage::Reached) if !self.has_led => changed(false, false),
             (TAG_END, stage) => stage,
             (1..=TAG_MOTION, _) => {
                 return Err(self.fault(&format!("a record of kind {tag} may not stand here")));
@@ -120,11 +127,21 @@ impl<R: Read> Reader<R> {
             TAG_TURN => Record::Turn,
             TAG_DIVIDE => self.change(Record::Divide)?,
             TAG_RETURN => self.change(Record::Return)?,
-            TAG_ARC | TAG_ARC_OF_DIMENSIONS => Record::Arc(self.arc(tag == TAG_ARC_OF_DIMENSIONS)?),
-            TAG_MOTION => match self.arc(!is_of_distances)? {
-                claim if claim.kept.is_empty() => Record::Motion(claim),
-                _ => return Err(malformed("a motion claims no signs")),
-            },
+            TAG_ARC | TAG_ARC_OF_DIMENSIONS => {
+                let claim = self.arc(tag == TAG_ARC_OF_DIMENSIONS)?;
+                self.has_led |= !claim.dimensions.is_empty();
+                Record::Arc(claim)
+            }
+            TAG_MOTION => {
+                let claim = self.arc(!is_of_distances)?;
+                if claim.dimensions.len() != 1 || !claim.kept.is_empty() {
+                    return Err(malformed(
+                        "a motion leads one dimension, and claims no signs",
+                    ));
+                }
+                self.is_motion = true;
+                Record::Motion(claim)
+            }
             TAG_REACHED => Record::Reached(self.figure()?),
             TAG_FOLD => Record::Fold(self.fold()?),
             TAG_END => Record::End(self.end()?),

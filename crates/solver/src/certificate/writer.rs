@@ -350,6 +350,11 @@ impl<W: Write> Witness for Writer<'_, W> {
         let Some(piece) = self.piece.take().filter(|_| kept) else {
             return;
         };
+        if !self.motion.is_empty() {
+            let what = "a motion past a flat figure, where its equations are dependent, has no certificate";
+            self.result = Err(io::Error::other(what));
+            return;
+        }
         self.release();
         self.put(Record::Divide);
         for record in piece {

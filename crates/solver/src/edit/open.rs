@@ -1,10 +1,11 @@
 //! From a sketch to a figure that meets its dimensions.
 
 use super::ending::Ending;
+use super::segments::{self, NARROWER, first_lost};
 use crate::interval::{Interval, point};
 use crate::problem::Problem;
-use crate::system::{GaugeError, is_met};
-use crate::track::arc::{ArcEnd, Figure};
+use crate::system::{GaugeError, Homotopy, is_met};
+use crate::track::arc::{ArcEnd, ArcRun, Figure};
 use crate::track::certified::FollowArcs;
 use crate::track::{Control, StartError, Stop, StopKind};
 
@@ -53,11 +54,14 @@ pub struct Moved {
     pub tubes: usize,
 }
 
+/// What follows arcs of a homotopy in tubes of at most such a radius, as a part of the unit of length.
+pub(super) type Again<'a> = dyn Fn(&Homotopy, f64) -> Box<dyn FollowArcs> + 'a;
+
 /// Leads the sketch to its own dimensions; distances then stand still in the homotopy of `arcs`, and what is said of other
 /// constraints has to be set anew. The homotopy must be that of the problem without a bend.
 pub(super) fn correct(
     problem: &Problem,
-    arcs: &mut dyn FollowArcs,
+    (arcs, again): (&mut dyn FollowArcs, &Again<'_>),
     control: &mut Control,
 ) -> Result<(Figure, Moved), OpenError> {
     let homotopy = arcs.homotopy_mut();
@@ -78,9 +82,28 @@ pub(super) fn correct(
     if let Some(witness) = &mut control.witness {
         witness.begin_arc(&[]);
     }
-    let run = arcs.follow(&start, control);
+    let mut run = arcs.follow(&start, control);
     if let Some(witness) = &mut control.witness {
         witness.end_arc(&run);
+    }
+    let lost = |run: &ArcRun| first_lost(&run.segments, run.t, |_| false).is_some();
+    let mut narrow = NARROWER.into_iter();
+    while lost(&run)
+        && let Some(radius) = narrow.next()
+    {
+        let mut control = Control {
+            cancel: control.cancel,
+            limit: control.limit,
+            ..Control::default()
+        };
+        let told = again(arcs.homotopy(), radius).follow(&start, &mut control);
+        if !matches!(told.end, ArcEnd::Reached(_) | ArcEnd::Limit(_)) && !lost(&told) {
+            break;
+        }
+        run.segments = told.segments;
+    }
+    if let Some((kept, _)) = first_lost(&run.segments, run.t, |_| false) {
+        return Err(OpenError::stopped(segments::stop(problem, kept)));
     }
     let figure = reached(run.end, run.t)?;
     let homotopy = arcs.homotopy_mut();

@@ -101,19 +101,19 @@ impl Round {
         })
     }
 
-    /// Follows the same path again for the witness of `control`: how that ends is told to it.
+    /// Follows the same path again for the witness of `control`, and tells how that ended.
     pub fn tell(
         problem: &Problem,
         setting: &Setting,
         options: &Options,
         control: &mut Control,
-    ) -> Result<(), OpenError> {
+    ) -> Result<Status, OpenError> {
         let mut whole = Whole::open_with(problem, options, control)?;
         let told = whole.lead_on(setting, |homotopy, figure| {
             if let Some(witness) = &mut control.witness {
                 witness.begin_motion(&[(setting.index, &setting.target)]);
             }
-            track_from(homotopy, Some(figure), &round(options), control);
+            track_from(homotopy, Some(figure), &round(options), control).status
         });
         Ok(told.map_err(StartError::Unsupported)?)
     }

@@ -10,7 +10,7 @@ use crate::interval::{Interval, point};
 use crate::places::Each as _;
 use crate::problem::{Item, Problem, Shape};
 use crate::system::{Extent, Segment, sign_of};
-use crate::track::arc::Kept;
+use crate::track::arc::{ArcEnd, ArcRun, Kept};
 use crate::track::{Stop, StopKind};
 
 /// The lines along an axis, and the arcs. `is_same`: whether two points are known to have the same coordinate along an axis.
@@ -45,17 +45,21 @@ pub(super) fn segments(
     found.collect()
 }
 
-/// All pairs of lines and arcs in closed outlines of a sketch in the plane that are apart as they are drawn, and are to stay so: those without a
-/// common end; and lines with one, which are not to fold onto each other. And the names of those that are not apart, or cannot be told to
-/// be. `is_same`: as of [`segments`].
-///
-/// What is left of the drawing where all lines and arcs are taken away, again and again, of which an end is no other's is closed outlines, with
-/// lines across them if there are such.
-pub(super) fn apart(
+/// What of the closed outlines of a sketch is to stay apart.
+pub(super) struct Outlines {
+    /// All pairs of their edges that are apart as they are drawn: those without a common end; and lines with one, which are not to fold
+    /// onto each other.
+    pub pairs: Vec<Segment>,
+    /// The names of pairs that are not, or cannot be told to be.
+    pub others: Vec<String>,
+}
+
+/// The closed outlines of lines and arcs of a sketch in the plane: what is left of the drawing where all lines and arcs are taken away, again and
+/// again, of which an end is not the end of another one; with lines across them if there are such. `is_same`: as of [`segments`].
+pub(super) fn outlines(
     problem: &Problem,
     is_same: impl Fn(usize, usize, usize) -> bool,
-) -> (Vec<Segment>, Vec<String>) {
-    let is_one = |p: usize, q: usize| p == q || (0..2).all(|axis| is_same(p, q, axis));
+) -> Outlines {
     let objects = problem.objects.iter().enumerate();
     let edges = objects.filter_map(|(object, of)| match of.shape {
         Shape::Line([a, b]) => Some((object, vec![a, b])),
@@ -67,29 +71,36 @@ pub(super) fn apart(
         _ => Vec::new(),
     };
     let ends = |edge: &[usize]| [edge[edge.len() - 2], edge[edge.len() - 1]];
+    // Points that are in one place, by the first of them.
+    let mut place: Vec<usize> = (0..problem.points.len()).collect();
+    for p in 0..place.len() {
+        for q in 0..p {
+            if (0..2).all(|axis| is_same(p, q, axis)) {
+                let [from, to] = [place[p], place[q]];
+                place
+                    .iter_mut()
+                    .filter(|at| **at == from)
+                    .for_each(|at| *at = to);
+            }
+        }
+    }
     loop {
-        let goes_on = |(object, edge): &(usize, Vec<usize>)| {
-            ends(edge).iter().all(|&p| {
-                let mut others = edges.iter().filter(|(other, _)| other != object);
-                others.any(|(_, other)| ends(other).iter().any(|&q| is_one(p, q)))
-            })
-        };
-        let kept: Vec<_> = edges
-            .iter()
-            .filter(|&edge| goes_on(edge))
-            .cloned()
-            .collect();
-        if kept.len() == edges.len() {
+        let mut count = vec![0; problem.points.len()];
+        for end in edges.iter().flat_map(|(_, edge)| ends(edge)) {
+            count[place[end]] += 1;
+        }
+        let before = edges.len();
+        edges.retain(|(_, edge)| ends(edge).iter().all(|&end| count[place[end]] > 1));
+        if edges.len() == before {
             break;
         }
-        edges = kept;
     }
     let drawn = |p: usize| problem.points[p].place().each(point);
     let (mut pairs, mut others) = (Vec::new(), Vec::new());
     for (k, (object, one)) in edges.iter().enumerate() {
         for (other, two) in &edges[..k] {
             let common = [[0, 0], [0, 1], [1, 0], [1, 1]].into_iter();
-            let common = common.filter(|&[i, j]| is_one(ends(one)[i], ends(two)[j]));
+            let common = common.filter(|&[i, j]| place[ends(one)[i]] == place[ends(two)[j]]);
             let extent = match &common.collect::<Vec<_>>()[..] {
                 [] => Extent::Apart {
                     points: [&one[..], two].concat(),
@@ -101,8 +112,7 @@ pub(super) fn apart(
                 _ => continue,
             };
             if extent.sign(|k| drawn(extent.points()[k]), sign_of) == 0 {
-                let [a, b] = [*other, *object].each(|k| &problem.objects[k].name);
-                others.push(format!("{a} and {b}"));
+                others.push(both(problem, *other, *object));
                 continue;
             }
             pairs.push(Segment {
@@ -112,7 +122,12 @@ pub(super) fn apart(
             });
         }
     }
-    (pairs, others)
+    Outlines { pairs, others }
+}
+
+fn both(problem: &Problem, a: usize, b: usize) -> String {
+    let [a, b] = [a, b].each(|k| &problem.objects[k].name);
+    format!("{a} and {b}")
 }
 
 /// Whether points are said to have the same coordinate along an axis, by a constraint that names both, or the line between them.
@@ -209,8 +224,8 @@ pub(super) fn stop(problem: &Problem, kept: &Kept) -> Stop {
     let name = &object.name;
     if let Some(other) = kept.other {
         let words = format!(
-            "there the edges {} and {name} come to touch (or so near to it that it cannot be told)",
-            problem.objects[other].name
+            "there the edges {} come to touch (or so near to it that it cannot be told)",
+            both(problem, other, kept.object)
         );
         return Stop::new(StopKind::Touches, words);
     }
@@ -230,26 +245,42 @@ pub(super) fn stop(problem: &Problem, kept: &Kept) -> Stop {
     Stop::new(StopKind::Vanishes, words)
 }
 
-/// Of which edges it is proved that they stay apart, in words, where that was asked for. `is_same`: as of [`segments`].
-pub(super) fn apart_in_words(
-    problem: &Problem,
-    kept: &[Kept],
-    is_same: impl Fn(usize, usize, usize) -> bool,
-) -> Option<String> {
-    let pairs = kept.iter().filter(|kept| kept.other.is_some()).count();
-    if pairs == 0 {
-        return None;
-    }
-    let not = match apart(problem, is_same).1 {
-        others if others.is_empty() => String::new(),
+/// Of how many pairs of edges it is proved that they stay apart as far as a run goes, in words; nothing where that was not asked for.
+pub(super) fn apart_in_words(problem: &Problem, run: &ArcRun) -> Option<String> {
+    let pairs = run.segments.iter().filter(|kept| kept.other.is_some());
+    let is_told = |kept: &&Kept| kept.sign != 0 && kept.lost.is_none();
+    let (told, not): (Vec<&Kept>, Vec<&Kept>) = pairs.partition(is_told);
+    let far = match run.end {
+        ArcEnd::Reached(_) => "",
+        _ => " up to there",
+    };
+    let not = not
+        .iter()
+        .filter_map(|kept| Some(both(problem, kept.other?, kept.object)));
+    let not = match not.collect::<Vec<_>>() {
+        names if names.is_empty() => String::new(),
+        names => format!(", not of {}", list_of(&names, 3)),
+    };
+    let count = told.len();
+    (count > 0 || !not.is_empty())
+        .then(|| format!("edges of closed outlines stay apart{far}, proved of {count} pairs{not}"))
+}
+
+/// What is kept apart in all that a session does, in words.
+pub(super) fn kept_apart_in_words(pairs: usize, others: &[String]) -> String {
+    let not = match others {
+        [] => String::new(),
         others => format!(
-            "; not {}, which touch as they are drawn, or cannot be told from it",
-            list_of(&others, 3)
+            " Not {}, which touch as they are drawn, or cannot be told from it.",
+            list_of(others, 3)
         ),
     };
-    Some(format!(
-        "edges of closed outlines stay apart, proved of {pairs} pairs{not}"
-    ))
+    match pairs {
+        0 => format!("There are no edges of closed outlines that are kept apart.{not}"),
+        pairs => format!(
+            "Edges of closed outlines are kept apart: {pairs} pairs of lines and arcs, not circles, nor an arc and its neighbours.{not}"
+        ),
+    }
 }
 
 #[cfg(test)]

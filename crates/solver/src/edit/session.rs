@@ -4,6 +4,7 @@ use super::drag::Drag;
 use super::ending::{Edited, Ending, Keep, Orientations};
 use super::open::{Moved, OpenError};
 use super::parts::Parts;
+use super::segments::kept_apart_in_words;
 use super::setting::Setting;
 use super::way::Way;
 use super::whole::Whole;
@@ -137,6 +138,14 @@ impl Session {
     /// far it was moved off that place before it was led to its dimensions.
     pub fn singular(&self) -> Option<&Singular> {
         self.way.parts()?.singular()
+    }
+
+    /// Which edges of closed outlines are kept apart in all that the session does, in words, where that was asked for
+    /// ([`Options::simple`]).
+    pub fn outlines_in_words(&self) -> Option<String> {
+        let pairs = self.way.segments().iter().filter(|s| s.other.is_some());
+        let others = self.way.outlines()?;
+        Some(kept_apart_in_words(pairs.count(), others))
     }
 
     /// How the equations fall apart, if they are followed part by part.

@@ -52,6 +52,9 @@ pub(super) trait Way: std::fmt::Debug + Send {
     /// The lines along an axis and the arcs, which must not vanish.
     fn segments(&self) -> &[Segment];
 
+    /// The names of edges of closed outlines that are not kept apart, where the others are.
+    fn outlines(&self) -> Option<&[String]>;
+
     /// Whether two points are known to have the same coordinate along an axis.
     fn is_same(&self, a: usize, b: usize, axis: usize) -> bool;
 
@@ -78,6 +81,8 @@ pub(super) trait Way: std::fmt::Debug + Send {
 
     /// What came of an edit that was followed so.
     fn edited(&self, settings: &[Setting], run: ArcRun, account: Account) -> Edited {
+        let apart = apart_in_words(self.problem(), &run);
+        let remarks = self.remarks().into_iter().chain(apart);
         let t = hull(run.t.0, run.t.1);
         let t = (!matches!(run.end, ArcEnd::Reached(_))).then_some(t);
         let dimensions = settings
@@ -93,9 +98,6 @@ pub(super) trait Way: std::fmt::Debug + Send {
             ArcEnd::Stopped(reason) => (Ending::Stopped(reason), None),
         };
         let figure = there.as_ref().unwrap_or(self.figure());
-        let is_same = |a: usize, b: usize, axis: usize| self.is_same(a, b, axis);
-        let apart = apart_in_words(self.problem(), &run.segments, is_same);
-        let remarks = self.remarks().into_iter().chain(apart);
         Edited {
             ending,
             t: run.t,

@@ -5,7 +5,7 @@ use super::open::{self, Moved, OpenError};
 use super::parts::MOST_TUBES;
 use super::parts::senses::senses;
 use super::place::Stand;
-use super::segments::{apart, is_same_by_constraint, segments};
+use super::segments::{is_same_by_constraint, outlines, segments};
 use super::setting::Setting;
 use super::way::Way;
 use crate::blocks::Account;
@@ -32,6 +32,8 @@ pub(crate) struct Whole {
     moved: Moved,
     /// What the constraints that are not distances were led to, where there are any.
     record: Option<Record>,
+    /// The names of edges of closed outlines that are not kept apart, where the others are.
+    outlines: Option<Vec<String>>,
 }
 
 impl Whole {
@@ -59,7 +61,7 @@ impl Whole {
         let mut problem = problem.clone();
         problem.homotopy.bend_coefficient = Decimal::from(0);
         problem.homotopy.detour = Decimal::from(0);
-        let mut record = None;
+        let (mut record, mut others) = (None, options.simple.then(Vec::new));
         let homotopy = if problem.is_distances_only() {
             Homotopy::new(&problem)?
         } else {
@@ -70,8 +72,9 @@ impl Whole {
             homotopy.followed = senses(&problem);
             homotopy.segments = segments(&problem, is_same_by_constraint(&problem));
             if options.simple {
-                let pairs = apart(&problem, is_same_by_constraint(&problem));
-                homotopy.segments.extend(pairs.0);
+                let found = outlines(&problem, is_same_by_constraint(&problem));
+                homotopy.segments.extend(found.pairs);
+                others = Some(found.others);
             }
             homotopy
         };
@@ -108,7 +111,14 @@ impl Whole {
         if let Some(witness) = &mut control.witness {
             witness.begin(arcs.homotopy().unit);
         }
-        let (figure, moved) = open::correct(&problem, &mut *arcs, control)?;
+        let again = |homotopy: &Homotopy, radius: f64| {
+            let options = Options {
+                tube_radius: Some(radius * homotopy.unit),
+                ..options.clone()
+            };
+            self::arcs(homotopy.clone(), &options)
+        };
+        let (figure, moved) = open::correct(&problem, (&mut *arcs, &again), control)?;
         let lengths = problem.distances.iter().map(|d| d.target.enclose());
         Ok(Whole {
             lengths: lengths.collect(),
@@ -119,6 +129,7 @@ impl Whole {
             figure,
             moved,
             record,
+            outlines: others,
         })
     }
 
@@ -291,6 +302,10 @@ impl Way for Whole {
 
     fn segments(&self) -> &[Segment] {
         &self.arcs.homotopy().segments
+    }
+
+    fn outlines(&self) -> Option<&[String]> {
+        self.outlines.as_deref()
     }
 
     fn is_same(&self, a: usize, b: usize, axis: usize) -> bool {

@@ -51,7 +51,7 @@ use crate::order::InOrder;
 use crate::order::each_once;
 use crate::problem::{Decimal, Distance, Item, Point, Problem, Target, counted, list};
 use crate::system::Quantity;
-use crate::track::{Control, Options};
+use crate::track::{Control, Options, Status, StopKind};
 use std::collections::{BTreeMap, HashSet};
 
 /// All figures of a linkage that moves in one way.
@@ -212,13 +212,16 @@ impl Motion {
         &self.driven.0
     }
 
-    /// Follows the motion once more for the witness of `control`, the writer of a certificate of [`Motion::certified`].
+    /// Follows the motion once more for the witness of `control`, the writer of a certificate of [`Motion::certified`]. Whether it has to be told the
+    /// other way (`reverse` of the options): this way the proof stops, and that way the figure comes back.
     ///
     /// # Errors
     /// Where that does not begin: why, in words.
-    pub fn tell(&self, options: &Options, control: &mut Control) -> Result<(), String> {
+    pub fn tell(&self, options: &Options, control: &mut Control) -> Result<bool, String> {
         let (problem, setting) = &self.driven;
-        Round::tell(problem, setting, options, control).map_err(|error| error.to_string())
+        let told = Round::tell(problem, setting, options, control);
+        let told = told.map_err(|error| error.to_string())?;
+        Ok(matches!(told, Status::Stopped(stop) if stop.kind == StopKind::OtherWay))
     }
 
     /// Whether the figure comes back to where it set out from.

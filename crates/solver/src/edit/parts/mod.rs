@@ -24,7 +24,7 @@ use crate::edit::drag::Drag;
 use crate::edit::ending::{Astray, Edited, Ending, Keep, Limit};
 use crate::edit::lowered;
 use crate::edit::open::{Moved, OpenError, furthest, reached};
-use crate::edit::segments::{apart, segments};
+use crate::edit::segments::{outlines, segments};
 use crate::edit::setting::Setting;
 use crate::edit::way::Way;
 use crate::interval::{Interval, Real, hull, point};
@@ -75,6 +75,8 @@ pub(super) struct Parts {
     followed: Vec<Vec<usize>>,
     /// Lines along an axis and arcs, which must not vanish: followed always.
     segments: Vec<Segment>,
+    /// The names of edges of closed outlines that are not kept apart, where the others are.
+    outlines: Option<Vec<String>>,
     figure: Figure,
     /// Circles that touch lines by their numbers, which have equations that were added; and the problem without these.
     contacts: Vec<contacts::Kept>,
@@ -154,8 +156,11 @@ impl Parts {
             place(a) == place(b)
         };
         let mut segments = segments(problem, is_same);
+        let mut others = None;
         if options.simple {
-            segments.extend(apart(problem, is_same).0);
+            let found = outlines(problem, is_same);
+            segments.extend(found.pairs);
+            others = Some(found.others);
         }
         let mut parts = Parts {
             senses: senses::senses(asked),
@@ -163,6 +168,7 @@ impl Parts {
             contacts,
             plain,
             segments,
+            outlines: others,
             options: Options {
                 space: crate::track::Space::Full,
                 reverse: false,
@@ -480,6 +486,10 @@ impl Way for Parts {
 
     fn segments(&self) -> &[Segment] {
         &self.segments
+    }
+
+    fn outlines(&self) -> Option<&[String]> {
+        self.outlines.as_deref()
     }
 
     fn is_same(&self, a: usize, b: usize, axis: usize) -> bool {

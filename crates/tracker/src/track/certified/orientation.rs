@@ -176,7 +176,8 @@ impl Simplex {
     /// The sign, where it is the same for every θ and within all radii; otherwise 0.
     fn sign(&self, piece: &Piece) -> i8 {
         let at = |k: usize| self.entries[k].each(|i| piece.at(i as usize));
-        // A term of `rest` goes through fewer than 12 roundings in a product, 5 in a sum, of which there are at most two and five.
+        // A term of `rest` goes through fewer than 12 roundings in a product and 5 in a sum. In a product of two uncertain numbers those of both
+        // add up: in all fewer than 60, of edges as of determinants.
         let certain = |value: Along| {
             let error = value.reach(60);
             i8::from(value.value > error) - i8::from(value.value < -error)
