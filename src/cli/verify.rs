@@ -78,9 +78,9 @@ fn check(arguments: &Arguments) -> Result<u8, String> {
         return Err("--sketch and --heavy say what of FILE is meant: name it, too".to_owned());
     }
     let of_file = file_of.map(|path| of_file(path, &arguments.which, contents));
-    let of_file = of_file.transpose()?;
-    let of_file = of_file.as_deref();
     if contents != Contents::Path {
+        let of_file = of_file.transpose()?;
+        let of_file = of_file.as_deref();
         let mut bytes = Vec::new();
         let read = file.read_to_end(&mut bytes);
         read.map_err(|e| format!("{name}: cannot be read: {e}"))?;
@@ -103,16 +103,25 @@ fn check(arguments: &Arguments) -> Result<u8, String> {
     line.clear();
     let verdict = verdict.map_err(|error| format!("{name}: {error}"))?;
     if verdict.motion.is_some() {
-        let moves = |(problem, account): &(Problem, Account)| {
+        // Nothing is held in it.
+        let loaded = file_of.map(|path| input::load(path, &arguments.which));
+        let of_file = loaded.transpose()?.map(|loaded| {
+            let mut account = Account::default();
+            loaded.add_left_out(&mut account, None);
+            (loaded.problem, account)
+        });
+        let found = of_file.as_ref().map(|(problem, account)| {
             let (missing, is_drawn_so) = verdict.is_motion_of(problem)?;
             Some((missing, is_drawn_so, account.clone()))
-        };
-        let found = of_file.map(|all| all.iter().find_map(moves));
-        let of_it = |file: &Path| of_the_motion(file, found.clone().flatten());
-        let said = (theorem(&verdict, clock.elapsed()), code(&verdict.outcome));
+        });
         let same = found.as_ref().is_none_or(Option::is_some);
+        let of_it = |file: &Path| of_the_motion(file, found.flatten());
+        let said = (theorem(&verdict, clock.elapsed()), code(&verdict.outcome));
+        let of_file = of_file.as_ref().map(std::slice::from_ref);
         return Ok(conclude(arguments, said, (same, of_it), of_file));
     }
+    let of_file = of_file.transpose()?;
+    let of_file = of_file.as_deref();
     let found = compare(of_file, |problem| verdict.is_about(problem));
     // What an edit led beyond 0 or 180 degrees.
     let turned = |problem: &Problem| verdict.is_about(&with_turns_of(problem, &verdict.problem));

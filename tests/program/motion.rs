@@ -6,6 +6,33 @@ use std::fs;
 
 const CRANK: &str = "problems/mechanisms/crank.toml";
 
+/// A certificate of a motion is of the figure of the file, of which nothing is held, or of none.
+#[test]
+fn the_proof_of_a_motion_is_about_the_figure_that_moves() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let (file, proof) = (at("parallelogram.toml"), at("motion.krawl"));
+    let text = "name = \"parallelogram\"\ndimension = 2\n[points]\nA = [0, 0]\nD = [2.5, 0]\nB = [0.81045345880221, 1.2622064772118448]\n\
+                C = [3.31045345880221, 1.2622064772118448]\n[constraints]\ndistances = [[\"A\", \"D\", 2.5], [\"A\", \"B\", 1.5], \
+                [\"B\", \"C\", 2.5], [\"C\", \"D\", 1.5]]\n";
+    fs::write(&file, text).unwrap();
+    let (code, _, error) = krawl(&["motion", &file, "--cert", &proof]);
+    assert_eq!(code, Some(5), "{error}");
+    let (code, said, error) = krawl(&["verify", &proof, &file]);
+    assert_eq!(code, Some(0), "{error}");
+    assert!(
+        said.contains("hold an arc of these figures") && said.contains("are those in"),
+        "{said}"
+    );
+    assert!(
+        !said.contains(" held ") && !said.contains("leaves out"),
+        "{said}"
+    );
+    let (code, said, _) = krawl(&["verify", &proof, CRANK]);
+    assert_eq!(code, Some(1));
+    assert!(said.contains("no motion of the figure in"), "{said}");
+}
+
 #[test]
 fn a_crank_turns_all_the_way_round() {
     let folder = tempfile::tempdir().unwrap();
