@@ -86,16 +86,16 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
         &mut control,
     );
     let mut motion = motion.map_err(|error| Refusal::of_run(file, &error, &control))?;
-    let checked = match &arguments.cert {
-        Some(path) => certify(&motion, path, arguments.quiet)?,
-        None => None,
-    };
     // Frames are not all of the way.
     loaded.add_left_out(&mut motion.account, None);
     motion.account.held_though_computed = held_though_computed(problem, &free);
     results.write_csv(|| motion_to_csv(&motion, &measures));
     results.write(|| Document::motion(&motion))?;
     results.print_or_say(|| motion_to_table(&motion), || motion_in_words(&motion));
+    let checked = match &arguments.cert {
+        Some(path) => certify(&motion, path, arguments.quiet)?,
+        None => None,
+    };
     Ok(
         results.code(match (checked, motion.is_loop(), motion.is_told()) {
             (Some(code), ..) => code,

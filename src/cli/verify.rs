@@ -1,7 +1,7 @@
 //! `krawl verify`: checks a certificate and prints the theorem that it proves.
 
 use super::{BAD_INPUT, CLOSED, INCOMPLETE, NOT_PROVED, REFUTED, input, output};
-use krawl::blocks::Account;
+use krawl::blocks::{Account, rounded_up};
 use krawl::certificate::complex::{ComplexFlaw, verify_complex_set};
 use krawl::certificate::cover::{CoverVerdict, verify_cover_while};
 use krawl::certificate::{Compared, Contents, Outcome, Settings, Stage, contents, verify};
@@ -77,9 +77,12 @@ fn check(arguments: &Arguments) -> Result<u8, String> {
     if file_of.is_none() && (arguments.which.sketch.is_some() || arguments.which.heavy) {
         return Err("--sketch and --heavy say what of FILE is meant: name it, too".to_owned());
     }
-    let of_file = file_of.map(|path| of_file(path, &arguments.which, contents));
+    let of_file = || {
+        let found = file_of.map(|path| of_file(path, &arguments.which, contents));
+        found.transpose()
+    };
     if contents != Contents::Path {
-        let of_file = of_file.transpose()?;
+        let of_file = of_file()?;
         let of_file = of_file.as_deref();
         let mut bytes = Vec::new();
         let read = file.read_to_end(&mut bytes);
@@ -111,8 +114,8 @@ fn check(arguments: &Arguments) -> Result<u8, String> {
             (loaded.problem, account)
         });
         let found = of_file.as_ref().map(|(problem, account)| {
-            let (missing, is_drawn_so) = verdict.is_motion_of(problem)?;
-            Some((missing, is_drawn_so, account.clone()))
+            let (missing, off) = verdict.is_motion_of(problem)?;
+            Some((missing, off, account.clone()))
         });
         let same = found.as_ref().is_none_or(Option::is_some);
         let of_it = |file: &Path| of_the_motion(file, found.flatten());
@@ -120,7 +123,7 @@ fn check(arguments: &Arguments) -> Result<u8, String> {
         let of_file = of_file.as_ref().map(std::slice::from_ref);
         return Ok(conclude(arguments, said, (same, of_it), of_file));
     }
-    let of_file = of_file.transpose()?;
+    let of_file = of_file()?;
     let of_file = of_file.as_deref();
     let found = compare(of_file, |problem| verdict.is_about(problem));
     // What an edit led beyond 0 or 180 degrees.
@@ -152,10 +155,11 @@ fn code(outcome: &Outcome) -> u8 {
     }
 }
 
-/// Of a motion, the names of what in a file the proof does not have, and whether the file has the points in the same places.
-fn of_the_motion(file: &Path, found: Option<(Vec<String>, bool, Account)>) -> String {
+/// What of a file is in the proof of a motion: the names of what is not, and how far from where it has the points they are drawn in the proof, were
+/// `found` of it.
+fn of_the_motion(file: &Path, found: Option<(Vec<String>, f64, Account)>) -> String {
     let file = file.display();
-    let Some((missing, is_drawn_so, account)) = found else {
+    let Some((missing, off, account)) = found else {
         return format!("REFUTED: it is no motion of the figure in {file}.\n");
     };
     let but = match &missing[..] {
@@ -165,9 +169,12 @@ fn of_the_motion(file: &Path, found: Option<(Vec<String>, bool, Account)>) -> St
             missing.join(", ")
         ),
     };
-    let drawn = match is_drawn_so {
-        true => "the sketches have the points in the same places",
-        false => "the sketch in the certificate is not the one in the file",
+    let drawn = match off {
+        0.0 => "the points are drawn in the same places".to_owned(),
+        off => format!(
+            "it sets out from a drawing that has points up to {} from where the file has them",
+            rounded_up(off)
+        ),
     };
     format!(
         "The points and constraints are those in {file}, exactly{but}; {drawn}.{}\n",

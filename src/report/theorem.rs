@@ -191,25 +191,24 @@ fn edits(verdict: &Verdict) -> String {
 /// How a figure moves, and the figure that it sets out from.
 fn motion(verdict: &Verdict) -> String {
     let (problem, (low, high)) = (&verdict.problem, verdict.t_range);
-    let led = verdict.motion.iter().flat_map(|claim| &claim.dimensions);
-    let (mut names, mut ranges) = (Vec::new(), String::new());
-    for (index, value) in led {
-        let name = problem.dimension_name(*index as usize);
-        let distance = problem.distances.get(*index as usize);
-        if let Some(distance) = distance.filter(|_| low <= high) {
-            // It is led in step with t.
-            let [from, to] = [distance.target.clone(), Target::Length(value.clone())];
-            let [from, to] = [from.enclose(), to.enclose()];
-            let at = |t: f64| from + point(t) * (to - from);
-            let both = at(low).convex_hull(at(high));
-            ranges += &format!(
-                " {name} stays between {} and {}.",
-                Bound::Lower.decimals(both.inf(), 6),
-                Bound::Upper.decimals(both.sup(), 6)
-            );
-        }
-        names.push(name);
-    }
+    let mut led = verdict.motion.iter().flat_map(|claim| &claim.dimensions);
+    let Some((index, value)) = led.next() else {
+        return String::new();
+    };
+    let name = problem.dimension_name(*index as usize);
+    let distance = problem.distances.get(*index as usize);
+    let range = distance.filter(|_| low <= high).map(|distance| {
+        // It is led in step with t.
+        let [from, to] = [distance.target.clone(), Target::Length(value.clone())];
+        let [from, to] = [from.enclose(), to.enclose()];
+        let at = |t: f64| from + point(t) * (to - from);
+        let both = at(low).convex_hull(at(high));
+        format!(
+            " {name} stays between {} and {}.",
+            Bound::Lower.decimals(both.inf(), 6),
+            Bound::Upper.decimals(both.sup(), 6)
+        )
+    });
     let from = match verdict.arcs.is_empty() {
         true => "The sketch meets its dimensions, exactly.",
         false => {
@@ -227,8 +226,8 @@ fn motion(verdict: &Verdict) -> String {
         }
     };
     let mut out = format!(
-        "{from} From there on all constraints of the problem in this certificate stand still but for {}: {what}.{ranges}\n",
-        names.join(" and ")
+        "{from} From there on all constraints of the problem in this certificate stand still but for {name}: {what}.{}\n",
+        range.unwrap_or_default()
     );
     if let Some(arc) = verdict.arcs.last() {
         write_figure(&mut out, verdict, &arc.figure);

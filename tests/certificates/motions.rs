@@ -72,6 +72,12 @@ fn motions_are_verified() {
                 .is_none_or(|(missing, _)| missing.len() > free.len())
         );
         assert!(!verdict.is_about(&problem));
+        // Distances mean the same wherever they are drawn, other constraints need not.
+        let mut other = problem.clone();
+        other.points[1].sketch[1] = "0.0625".parse().unwrap();
+        let off = verdict.is_motion_of(&other).map(|(_, off)| off);
+        assert_eq!(off.is_some(), verdict.problem.is_distances_only());
+        assert!(off.is_none_or(|off| off > 0.06 && off < 0.07), "{off:?}");
     }
 }
 

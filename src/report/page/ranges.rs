@@ -101,8 +101,8 @@ pub(super) fn page(reader: &Reader, limits: &Limits) -> Result<Page, ShowError> 
     });
     page.say(match is_loose {
         false => {
-            "Each dimension was moved alone, both ways, with proof: between the figure of the file and a limit there is exactly one \
-             figure for every value that continues it, and beyond the limit it has no continuation. Figures that are put together \
+            "Each dimension was moved alone, both ways, with proof, and what had to be held or left out for that is named with it: between \
+             the figure of the file and a limit there is exactly one figure for every value that continues it, and beyond the limit it has no continuation. Figures that are put together \
              another way may have other limits. At a limit the figure can move for an instant with all dimensions as they are."
         }
         true => {

@@ -1,15 +1,23 @@
 //! What a file computes by expressions of parameters.
 
-use super::setting::{Setting, number};
+use super::setting::{Setting, SettingError, number};
 use crate::order::add_new;
 use crate::problem::expression::names;
 use crate::problem::{Decimal, Problem};
 
 /// The expression that a file computes a parameter by, if it is no number there.
-pub(super) fn of_parameter<'p>(problem: &'p Problem, name: &str) -> Option<&'p str> {
+fn of_parameter<'p>(problem: &'p Problem, name: &str) -> Option<&'p str> {
     let mut parameters = problem.parameters.iter();
     let (_, value) = parameters.find(|(other, _)| other == name)?;
     value.expression()
+}
+
+/// Refuses to set a parameter that a file computes.
+pub(super) fn check_given(problem: &Problem, name: &str) -> Result<(), SettingError> {
+    match of_parameter(problem, name) {
+        Some(expression) => Err(SettingError::Computed(name.into(), expression.into())),
+        None => Ok(()),
+    }
 }
 
 /// The parameters that a dimension's number comes from, those in the expressions of others among them.

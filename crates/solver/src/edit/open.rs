@@ -1,13 +1,14 @@
 //! From a sketch to a figure that meets its dimensions.
 
 use super::ending::Ending;
-use super::segments::{self, NARROWER, first_lost};
+use super::segments::{self, first_lost, in_narrower_tubes};
+use super::whole::narrower;
 use crate::interval::{Interval, point};
 use crate::problem::Problem;
-use crate::system::{GaugeError, Homotopy, is_met};
+use crate::system::{GaugeError, is_met};
 use crate::track::arc::{ArcEnd, ArcRun, Figure};
 use crate::track::certified::FollowArcs;
-use crate::track::{Control, StartError, Stop, StopKind};
+use crate::track::{Control, Options, StartError, Stop, StopKind};
 
 /// Why a file holds no figure to edit.
 #[derive(Debug, thiserror::Error)]
@@ -54,14 +55,11 @@ pub struct Moved {
     pub tubes: usize,
 }
 
-/// What follows arcs of a homotopy in tubes of at most such a radius, as a part of the unit of length.
-pub(super) type Again<'a> = dyn Fn(&Homotopy, f64) -> Box<dyn FollowArcs> + 'a;
-
 /// Leads the sketch to its own dimensions; distances then stand still in the homotopy of `arcs`, and what is said of other
 /// constraints has to be set anew. The homotopy must be that of the problem without a bend.
 pub(super) fn correct(
     problem: &Problem,
-    (arcs, again): (&mut dyn FollowArcs, &Again<'_>),
+    (arcs, options): (&mut dyn FollowArcs, &Options),
     control: &mut Control,
 ) -> Result<(Figure, Moved), OpenError> {
     let homotopy = arcs.homotopy_mut();
@@ -86,22 +84,15 @@ pub(super) fn correct(
     if let Some(witness) = &mut control.witness {
         witness.end_arc(&run);
     }
-    let lost = |run: &ArcRun| first_lost(&run.segments, run.t, |_| false).is_some();
-    let mut narrow = NARROWER.into_iter();
-    while lost(&run)
-        && let Some(radius) = narrow.next()
-    {
-        let mut control = Control {
-            cancel: control.cancel,
-            limit: control.limit,
-            ..Control::default()
-        };
-        let told = again(arcs.homotopy(), radius).follow(&start, &mut control);
-        if !matches!(told.end, ArcEnd::Reached(_) | ArcEnd::Limit(_)) && !lost(&told) {
-            break;
-        }
-        run.segments = told.segments;
-    }
+    let mut control = Control {
+        cancel: control.cancel,
+        limit: control.limit,
+        ..Control::default()
+    };
+    let is_lost = |(): &(), run: &ArcRun| first_lost(&run.segments, run.t, |_| false).is_some();
+    in_narrower_tubes(&mut (), &mut run, is_lost, |(), radius| {
+        narrower(arcs.homotopy(), options, radius).follow(&start, &mut control)
+    });
     if let Some((kept, _)) = first_lost(&run.segments, run.t, |_| false) {
         return Err(OpenError::stopped(segments::stop(problem, kept)));
     }

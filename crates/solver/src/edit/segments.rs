@@ -216,7 +216,29 @@ pub(super) fn first_lost(
 
 /// In wide tubes a line or arc cannot be told from nothing long before it vanishes, or where it never does. Where that is so the way is
 /// followed again in tubes of at most these radii, as parts of the unit of length.
-pub(super) const NARROWER: [f64; 2] = [1e-4, 1e-9];
+const NARROWER: [f64; 2] = [1e-4, 1e-9];
+
+/// What becomes of segments in a run, told in narrower tubes as long as one seems to be lost. `again`: follows the run in tubes of at most such a
+/// radius, as a part of the unit of length.
+pub(super) fn in_narrower_tubes<W: ?Sized>(
+    way: &mut W,
+    run: &mut ArcRun,
+    is_lost: impl Fn(&W, &ArcRun) -> bool,
+    mut again: impl FnMut(&mut W, f64) -> ArcRun,
+) {
+    for radius in NARROWER {
+        if !is_lost(way, run) {
+            return;
+        }
+        let again = again(way, radius);
+        run.steps += again.steps;
+        let is_told = matches!(again.end, ArcEnd::Reached(_) | ArcEnd::Limit(_));
+        if !is_told && !is_lost(way, &again) {
+            return;
+        }
+        run.segments = again.segments;
+    }
+}
 
 /// That a segment ends an edit, in words.
 pub(super) fn stop(problem: &Problem, kept: &Kept) -> Stop {

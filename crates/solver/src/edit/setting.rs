@@ -1,6 +1,6 @@
 //! Which dimension is to become how long.
 
-use super::computed::of_parameter;
+use super::computed::check_given;
 use super::ending::Dimension;
 use crate::constraint::{self, MOST_TURN, Measure};
 use crate::interval::angle::{degrees_of_cosine, direction};
@@ -272,12 +272,7 @@ impl Setting {
     pub fn named(problem: &Problem, name: &str, value: &str) -> Result<Self, SettingError> {
         let name = name.trim();
         let is_led = is_led_alone(problem, name);
-        if let Some(expression) = of_parameter(problem, name) {
-            return Err(SettingError::Computed(
-                name.to_owned(),
-                expression.to_owned(),
-            ));
-        }
+        check_given(problem, name)?;
         if problem.parameters.iter().any(|(other, _)| other == name) && !is_led {
             return Err(SettingError::Parameter(name.to_owned()));
         }

@@ -4,7 +4,7 @@ use super::drag::Drag;
 use super::ending::{Edited, Ending, Keep, Limit, Orientations};
 use super::open::Moved;
 use super::parts::Parts;
-use super::segments::{NARROWER, Reversed, apart_in_words, first_lost, stop};
+use super::segments::{Reversed, apart_in_words, first_lost, in_narrower_tubes, stop};
 use super::setting::Setting;
 use crate::blocks::Account;
 use crate::interval::{Interval, hull};
@@ -123,22 +123,12 @@ pub(super) trait Way: std::fmt::Debug + Send {
         &mut self,
         settings: &[Setting],
         run: &mut ArcRun,
-        mut again: impl FnMut(&mut Self, f64) -> ArcRun,
+        again: impl FnMut(&mut Self, f64) -> ArcRun,
     ) where
         Self: Sized,
     {
-        for radius in NARROWER {
-            if self.lost_segment(settings, run).is_none() {
-                return;
-            }
-            let again = again(self, radius);
-            run.steps += again.steps;
-            let is_told = matches!(again.end, ArcEnd::Reached(_) | ArcEnd::Limit(_));
-            if !is_told && self.lost_segment(settings, &again).is_none() {
-                break;
-            }
-            run.segments = again.segments;
-        }
+        let is_lost = |way: &Self, run: &ArcRun| way.lost_segment(settings, run).is_some();
+        in_narrower_tubes(self, run, is_lost, again);
         if let Some((stop, t)) = self.lost_segment(settings, run) {
             (run.end, run.t) = (ArcEnd::Stopped(stop), t);
         }

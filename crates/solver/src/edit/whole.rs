@@ -111,14 +111,7 @@ impl Whole {
         if let Some(witness) = &mut control.witness {
             witness.begin(arcs.homotopy().unit);
         }
-        let again = |homotopy: &Homotopy, radius: f64| {
-            let options = Options {
-                tube_radius: Some(radius * homotopy.unit),
-                ..options.clone()
-            };
-            self::arcs(homotopy.clone(), &options)
-        };
-        let (figure, moved) = open::correct(&problem, (&mut *arcs, &again), control)?;
+        let (figure, moved) = open::correct(&problem, (&mut *arcs, &options), control)?;
         let lengths = problem.distances.iter().map(|d| d.target.enclose());
         Ok(Whole {
             lengths: lengths.collect(),
@@ -167,11 +160,7 @@ impl Whole {
         let witness = control.witness.take();
         self.end_where_segments_vanish(settings, &mut run, |whole, radius| {
             let homotopy = whole.arcs.homotopy();
-            let options = Options {
-                tube_radius: Some(radius * homotopy.unit),
-                ..whole.options.clone()
-            };
-            arcs(homotopy.clone(), &options).follow(&whole.figure, control)
+            narrower(homotopy, &whole.options, radius).follow(&whole.figure, control)
         });
         control.witness = witness;
         let homotopy = self.arcs.homotopy_mut();
@@ -244,6 +233,15 @@ impl Whole {
     pub(super) fn homotopy_mut(&mut self) -> &mut Homotopy {
         self.arcs.homotopy_mut()
     }
+}
+
+/// What follows arcs of a homotopy in tubes of at most such a radius, as a part of the unit of length.
+pub(super) fn narrower(homotopy: &Homotopy, options: &Options, radius: f64) -> Box<dyn FollowArcs> {
+    let options = Options {
+        tube_radius: Some(radius * homotopy.unit),
+        ..options.clone()
+    };
+    arcs(homotopy.clone(), &options)
 }
 
 impl Way for Whole {

@@ -1,6 +1,6 @@
 //! Angles in the plane that are set beyond 0 or 180 degrees: followed as turns.
 
-use super::computed::{of_parameter, sources};
+use super::computed::{check_given, sources};
 use super::setting::{Setting, SettingError, measure, number, read};
 use super::write::direction;
 use crate::constraint::{Arguments, LineName, Measure, is_opposite_nearer, order_of_kind};
@@ -106,12 +106,7 @@ impl Asked {
         let mut set = Parameters::new();
         for &(name, value) in named {
             if problem.parameters.iter().any(|(other, _)| other == name) {
-                if let Some(expression) = of_parameter(problem, name) {
-                    return Err(SettingError::Computed(
-                        name.to_owned(),
-                        expression.to_owned(),
-                    ));
-                }
+                check_given(problem, name)?;
                 let value = read(value, || name.to_owned())?;
                 if set.iter().any(|(other, _)| other == name) {
                     return Err(SettingError::Twice(name.to_owned()));

@@ -439,11 +439,11 @@ fn driven(problem: &Problem, ends: [usize; 2]) -> (Problem, Setting) {
     let is_squared = |d: &Distance| matches!(d.target, Target::SquaredLength(_));
     let index = out.distances.iter().position(is_squared);
     let index = index.unwrap_or(out.distances.len());
-    let length = Distance {
+    let driver = Distance {
         points: ends,
         target: Target::Length(decimal(length)),
     };
-    out.distances.insert(index, length);
+    out.distances.insert(index, driver);
     // Nothing is bent, but problems of distances name one that may be; the reference is chosen among the others.
     out.homotopy.bend = match problem.is_distances_only() {
         true => index,
@@ -453,7 +453,7 @@ fn driven(problem: &Problem, ends: [usize; 2]) -> (Problem, Setting) {
     let labels = std::mem::take(&mut out.labels).into_iter();
     let moved = labels.map(|(at, label)| (at + usize::from(at >= index), label));
     out.labels = moved.collect();
-    let target = Target::Length(decimal(1.25 * drawn(problem, ends)));
+    let target = Target::Length(decimal(1.25 * length));
     // The reference that there is stands still, if it can.
     let has_reference = !out.homotopy.reference.is_empty() && out.check().is_ok();
     let out = match has_reference {

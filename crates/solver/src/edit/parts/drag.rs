@@ -136,17 +136,13 @@ impl Parts {
                     part = f64::min(2.0 * part, 1.0);
                 }
                 None if part > LEAST_PART => part *= 0.5,
-                None if stop.as_ref().is_some_and(|stop| {
-                    matches!(stop.kind, StopKind::Vanishes | StopKind::Touches)
-                }) =>
-                {
-                    return Err(stop.expect("it is there"));
-                }
-                None if far < BESIDE * size => {
-                    let words = "the figure seems to be all but at a dead centre";
-                    return Err(Stop::new(StopKind::Singular, words));
-                }
                 None => {
+                    let is_at_edge =
+                        |stop: &Stop| matches!(stop.kind, StopKind::Vanishes | StopKind::Touches);
+                    if far < BESIDE * size && !stop.as_ref().is_some_and(is_at_edge) {
+                        let words = "the figure seems to be all but at a dead centre";
+                        return Err(Stop::new(StopKind::Singular, words));
+                    }
                     return Err(
                         stop.unwrap_or_else(|| undecided("no figure near that place was found"))
                     );

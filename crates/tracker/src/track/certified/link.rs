@@ -3,8 +3,7 @@
 use super::proof::Proof;
 use crate::interval::rounding::{gamma, largest, round_up};
 use crate::interval::{Interval, hull, point};
-use crate::linalg::dot;
-use crate::linalg::{LANE, Matrix, Vector};
+use crate::linalg::{LANE, Matrix, Vector, dot};
 use crate::places::{Each as _, array};
 use crate::track::arc::Figure;
 use crate::track::events::TimeAlong;

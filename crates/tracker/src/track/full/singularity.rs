@@ -2,8 +2,7 @@
 
 use super::local::Local;
 use super::preconditioner::Preconditioner;
-use crate::linalg::Vector;
-use crate::linalg::dot;
+use crate::linalg::{Vector, dot};
 
 /// A pair of singularities 1/x with x² − p x + w = 0, complex conjugate or real.
 #[derive(Debug, Clone, Copy, PartialEq)]

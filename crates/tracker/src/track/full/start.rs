@@ -1,8 +1,7 @@
 //! Setting out from the sketch, and measuring what was travelled.
 
 use super::{Equations, Local, ORDER, Preconditioner};
-use crate::linalg::dot;
-use crate::linalg::{Singular, Vector};
+use crate::linalg::{Singular, Vector, dot};
 use crate::system::Homotopy;
 
 /// A tangent larger than this in the coordinate that is held comes from rounding, not from the problem.

@@ -2,8 +2,7 @@
 
 use super::tube::{KrawczykTest, norm_of};
 use crate::interval::rounding::{gamma, round_up};
-use crate::linalg::Vector;
-use crate::linalg::dot;
+use crate::linalg::{Vector, dot};
 use crate::places::array;
 use crate::track::certified::link::{Ball, Tube, from_middle};
 use crate::track::certified::proof::Proof;

@@ -1,8 +1,7 @@
 //! The paper's tracker in the full space, to set its figures beside ours (RR 8705, section 7.1).
 
 use super::SAME_LENGTH;
-use crate::linalg::dot;
-use crate::linalg::{Matrix, Vector};
+use crate::linalg::{Matrix, Vector, dot};
 use crate::system::Homotopy;
 use crate::track::float::{self, Record, SMALLEST_STEP, Tried, doubled};
 use crate::track::full::{Equations, InverseMaker, Local, ORDER};

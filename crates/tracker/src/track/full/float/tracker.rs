@@ -2,8 +2,7 @@
 
 use super::crossing::{Crossing as FlatCrossing, distance};
 use super::open::{Ends, Halt, endless, follow_both_ways};
-use crate::linalg::dot;
-use crate::linalg::{Matrix, Vector};
+use crate::linalg::{Matrix, Vector, dot};
 use crate::places::array;
 use crate::system::Homotopy;
 use crate::track::ends::ENDLESS;
