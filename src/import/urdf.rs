@@ -6,7 +6,7 @@
 use crate::interval::vector::{cross, dot, length};
 use crate::problem::{Decimal, JointSort, Pose};
 use roxmltree::{Document, Node};
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 use std::f64::consts::FRAC_PI_2;
 
 /// The robot of a file as the text of a problem file (docs/using/robots.md).
@@ -29,7 +29,9 @@ pub fn problem_file(xml: &str) -> Result<String, String> {
     };
     let mut names = HashSet::new();
     let (mut bodies, mut joints) = (Vec::new(), String::new());
-    let (mut turns, mut travels) = (Vec::new(), Vec::new());
+    let (mut turns, mut travels, mut follows) = (Vec::new(), Vec::new(), Vec::new());
+    // What joints that follow no other one are called, and what they do.
+    let mut does_of = HashMap::new();
     for link in children("link") {
         let name = attribute(link, "name")?;
         names.insert(name.to_owned());
@@ -59,15 +61,6 @@ pub fn problem_file(xml: &str) -> Result<String, String> {
                 ));
             }
         };
-        if joint
-            .children()
-            .any(|node| node.tag_name().name() == "mimic")
-        {
-            return Err(format!(
-                "line {}: the joint `{own}` follows another one (`mimic`), which is not read",
-                line(joint)
-            ));
-        }
         let ends = [end(joint, "parent")?, end(joint, "child")?];
         if let Some(unknown) = ends.iter().find(|end| !names.contains(*end)) {
             return Err(format!(
@@ -76,10 +69,31 @@ pub fn problem_file(xml: &str) -> Result<String, String> {
             ));
         }
         let frames = frames(joint, sort)?;
-        match sort {
-            JointSort::Revolute => turns.push(name.clone()),
-            JointSort::Prismatic => travels.push(name.clone()),
-            _ => {}
+        let moves = match sort {
+            JointSort::Revolute => Some(("turn", &mut turns)),
+            JointSort::Prismatic => Some(("travel", &mut travels)),
+            _ => None,
+        };
+        let mut children = joint.children();
+        match (
+            moves,
+            children.find(|node| node.tag_name().name() == "mimic"),
+        ) {
+            (Some((does, _)), Some(mimic)) => {
+                let leader = attribute(mimic, "joint")?;
+                follows.push((name.clone(), does, leader.to_owned(), mimic));
+            }
+            (Some((does, all)), None) => {
+                all.push(name.clone());
+                does_of.insert(own.to_owned(), (name.clone(), does));
+            }
+            (None, Some(mimic)) => {
+                return Err(format!(
+                    "line {}: the joint `{own}` neither turns nor travels, and cannot follow another one",
+                    line(mimic)
+                ));
+            }
+            (None, None) => {}
         }
         let [first, second] = ends.each_ref().map(|end| quoted(end));
         let pair = |of: fn(&Pose) -> &[Decimal; 3]| {
@@ -101,6 +115,36 @@ pub fn problem_file(xml: &str) -> Result<String, String> {
     if joints.is_empty() {
         return Err("there is no joint in it".to_owned());
     }
+    let equations = follows.iter().map(|(name, does, leader, mimic)| {
+        let wrong =
+            |why: &str| format!("line {}: `{name}` follows `{leader}`, {why}", line(*mimic));
+        let (led, by) = does_of
+            .get(leader)
+            .ok_or_else(|| wrong("which is no joint that moves by itself"))?;
+        if by != does {
+            return Err(wrong(
+                "and one of them turns, the other one travels: a screw, which is not read",
+            ));
+        }
+        let number = |key: &str, otherwise: i32| match mimic.attribute(key) {
+            None => Ok(Decimal::from(otherwise)),
+            Some(text) => text
+                .parse::<Decimal>()
+                .map_err(|error| wrong(&format!("{key}=\"{text}\": {error}"))),
+        };
+        let (times, offset) = (number("multiplier", 1)?, number("offset", 0)?);
+        let offset = match *does {
+            "turn" => match quarters(&offset) {
+                Some(quarters) => (90.0 * quarters).to_string(),
+                None => offset.to_f64().to_degrees().to_string(),
+            },
+            _ => offset.to_string(),
+        };
+        Ok(quoted(&format!(
+            "{does}({name}) = {times} * {does}({led}) + {offset}"
+        )))
+    });
+    let equations = equations.collect::<Result<Vec<_>, String>>()?;
     let mut out = String::new();
     let name = root.attribute("name").unwrap_or("robot");
     out += &format!("name = {}\ndimension = 3\n\n[bodies]\n", quoted(name));
@@ -116,6 +160,9 @@ pub fn problem_file(xml: &str) -> Result<String, String> {
         if !entries.is_empty() {
             out += &format!("{key} = [{}]\n", entries.join(", "));
         }
+    }
+    if !equations.is_empty() {
+        out += &format!("equations = [{}]\n", equations.join(", "));
     }
     Ok(out)
 }
@@ -171,8 +218,8 @@ fn three(joint: Node, element: &str, name: &str) -> Result<Option<[Decimal; 3]>,
     three.map(Some).map_err(wanted)
 }
 
-/// The sine and cosine of an angle in radians.
-fn turn(angle: &Decimal) -> (f64, f64) {
+/// How many quarter turns an angle in radians is, if it is so many as far as its digits tell.
+fn quarters(angle: &Decimal) -> Option<f64> {
     let x = angle.to_f64();
     let text = angle.text();
     let digits = text.split_once('.').map_or(0, |(_, behind)| {
@@ -182,12 +229,17 @@ fn turn(angle: &Decimal) -> (f64, f64) {
     let off = (x - quarters * FRAC_PI_2).abs();
     // Half a unit of the last digit, and what a float is off by.
     let is_rounded = x == 0.0 || digits >= 3 && off <= 0.5 * 10f64.powi(-(digits as i32)) + 1e-15;
-    match (is_rounded, quarters.rem_euclid(4.0) as u8) {
-        (true, 0) => (0.0, 1.0),
-        (true, 1) => (1.0, 0.0),
-        (true, 2) => (0.0, -1.0),
-        (true, _) => (-1.0, 0.0),
-        (false, _) => x.sin_cos(),
+    is_rounded.then_some(quarters)
+}
+
+/// The sine and cosine of an angle in radians.
+fn turn(angle: &Decimal) -> (f64, f64) {
+    match quarters(angle).map(|quarters| quarters.rem_euclid(4.0) as u8) {
+        Some(0) => (0.0, 1.0),
+        Some(1) => (1.0, 0.0),
+        Some(2) => (0.0, -1.0),
+        Some(_) => (-1.0, 0.0),
+        None => angle.to_f64().sin_cos(),
     }
 }
 

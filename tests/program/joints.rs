@@ -241,6 +241,101 @@ fn a_robot_in_urdf_is_read() {
     );
 }
 
+/// Of a planetary gear three turns of four are told by Willis's equation; the fourth may be any of as many as it is taken in quarters.
+#[test]
+fn gears_turn_as_often_as_their_teeth_say() {
+    let file = "docs/examples/planetary-gear.toml";
+    let (code, said) = run(&["all", file]);
+    assert!(code == Some(0) && said.contains("4 solutions"), "{said}");
+    for carrier in ["10.0000", "100.0000", "-80.0000", "-170.0000"] {
+        let joint = format!("joint carrier: turned by {carrier}");
+        assert!(said.contains(&joint), "{carrier}: {said}");
+    }
+    // With the sun once round the carrier goes a quarter further, and not anywhere else.
+    let (code, said) = run(&["edit", file, "--set", "sun=400", "--set", "ring=-20"]);
+    assert!(
+        code == Some(0) && said.contains("joint carrier: turned by 85.0000"),
+        "{said}"
+    );
+}
+
+/// A five-bar linkage of which one crank goes twice round, backwards, for each turn of the other one.
+#[test]
+fn a_geared_linkage_moves_as_its_cranks_do() {
+    let directory = tempfile::tempdir().unwrap();
+    let file = directory.path().join("geared.toml");
+    let text = "dimension = 2\nequations = [\"10*turn(A) = -20*turn(D)\"]\n[points]\nP = [0, 1]\nQ = [3.5, 1]\nC = [1.8, 3]\n\
+        [bodies]\nground = {}\nleft = { P = [1, 0] }\nright = { Q = [1, 0] }\n[joints]\n\
+        A = { revolute = [\"ground\", \"left\"], sketch = 80 }\n\
+        D = { revolute = [\"ground\", \"right\"], at = [[3, 0], [0, 0]], sketch = -40 }\n\
+        [constraints]\ndistances = [[\"P\", \"C\", 2.5], [\"Q\", \"C\", 2.5]]\n";
+    fs::write(&file, text).unwrap();
+    let apart = |degrees: f64| {
+        let (a, d) = ((-2.0 * degrees).to_radians(), degrees.to_radians());
+        f64::hypot(3.0 + d.cos() - a.cos(), d.sin() - a.sin())
+    };
+    let all = (0..360_000).map(|k| apart(f64::from(k) / 1000.0));
+    let [least, most] = all.fold([f64::INFINITY, 0.0], |[low, high]: [f64; 2], x| {
+        [low.min(x), high.max(x)]
+    });
+    let (code, said) = run(&["motion", file.to_str().unwrap(), "--json", "-"]);
+    assert_eq!(code, Some(0), "{said}");
+    let result: serde_json::Value = serde_json::from_str(&said).unwrap();
+    let of = |key: &str| result["measures"][0][key].as_f64();
+    let [low, high] = ["least", "greatest"].map(of);
+    let is_near = |told: Option<f64>, wanted: f64| told.is_some_and(|x| (x - wanted).abs() < 1e-6);
+    assert!(
+        is_near(low, least) && is_near(high, most),
+        "{least} {most}: {said}"
+    );
+}
+
+/// Of a gripper one finger follows the other one, and a slide another slide; nothing follows what moves in another way.
+#[test]
+fn joints_of_urdf_follow_others() {
+    let directory = tempfile::tempdir().unwrap();
+    let file = directory.path().join("gripper.urdf");
+    let file = file.to_str().unwrap();
+    let joint = |name: &str, kind: &str, ends: [&str; 2], mimic: &str| {
+        let [parent, child] = ends;
+        format!(
+            "<joint name=\"{name}\" type=\"{kind}\"><parent link=\"{parent}\"/><child link=\"{child}\"/>\
+             <axis xyz=\"1 0 0\"/>{mimic}</joint>\n"
+        )
+    };
+    let gripper = |of_slide: &str| {
+        let links = ["palm", "f1", "f2", "s1", "s2"];
+        let links: String = links
+            .map(|link| format!("<link name=\"{link}\"/>"))
+            .concat();
+        let finger = "<mimic joint=\"left\" multiplier=\"-0.5\" offset=\"1.5708\"/>";
+        let joints = [
+            joint("left", "revolute", ["palm", "f1"], ""),
+            joint("right", "revolute", ["palm", "f2"], finger),
+            joint("out", "prismatic", ["f1", "s1"], ""),
+            joint("with", "prismatic", ["f2", "s2"], of_slide),
+        ];
+        let text = format!("<robot>{links}\n{}</robot>", joints.concat());
+        fs::write(file, text).unwrap();
+    };
+    gripper("<mimic joint=\"out\" multiplier=\"2\" offset=\"0.01\"/>");
+    let (code, said) = run(&["edit", file, "--set", "left=30", "--set", "out=0.1"]);
+    assert_eq!(code, Some(0), "{said}");
+    for wanted in ["right: turned by 75.0000", "with: drawn out by 0.21000"] {
+        assert!(said.contains(wanted), "{wanted}: {said}");
+    }
+    for (mimic, words) in [
+        ("<mimic joint=\"left\"/>", "a screw"),
+        ("<mimic joint=\"lost\"/>", "no joint that moves by itself"),
+        ("<mimic joint=\"out\" offset=\"x\"/>", "offset=\"x\""),
+    ] {
+        gripper(mimic);
+        let (code, said) = run(&["check", file]);
+        assert!(code == Some(2) && said.contains(words), "{said}");
+        assert!(said.contains("line 5"), "{said}");
+    }
+}
+
 /// Axes that are parallel but for the fortieth digit are no reason to fail.
 #[test]
 fn nearly_parallel_axes_are_survived() {

@@ -127,6 +127,19 @@ impl Rational {
         &self.below
     }
 
+    /// The positive number by which all of these are multiplied to be whole numbers without a common factor; 1 if all are 0.
+    pub fn to_coprime<'a>(numbers: impl Iterator<Item = &'a Rational> + Clone) -> Self {
+        let below = numbers
+            .clone()
+            .fold(BigInt::one(), |all, x| all.lcm(&x.below));
+        let above = numbers.map(|x| &x.above * (&below / &x.below));
+        let above = above.fold(BigInt::ZERO, |all, x| all.gcd(&x));
+        match above.is_zero() {
+            true => Rational::one(),
+            false => Rational::new(below, above),
+        }
+    }
+
     /// Whether it is 0.
     pub fn is_zero(&self) -> bool {
         self.above.is_zero()

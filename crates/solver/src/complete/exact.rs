@@ -96,6 +96,8 @@ pub struct Nearly {
     pub points: Vec<Vector>,
     /// The distance that it has not exactly, and by how much it misses that.
     pub left_out: LeftOut,
+    /// What it is the only figure of, beside the other distances, in words.
+    pub held: String,
 }
 
 /// Of a problem that is one exact step and has no figure: the flat one that has all distances but one, which is met within its digits: it is as long (or
@@ -127,7 +129,13 @@ pub fn nearly(problem: &Problem, is_own: impl Fn([usize; 2]) -> bool) -> Option<
                 let mut account = Account::default();
                 account.leave_out(problem.distance_name(e), verdict);
                 let left_out = account.left_out.remove(0);
-                best = Some((share, Nearly { points, left_out }));
+                let held = held(problem, distance.points, turned);
+                let near = Nearly {
+                    points,
+                    left_out,
+                    held,
+                };
+                best = Some((share, near));
             }
         }
     }
@@ -165,6 +173,28 @@ fn in_one_plane(problem: &Problem, [i, j]: [usize; 2], turned: bool) -> Option<V
         _ => return None,
     }
     Some(places)
+}
+
+/// That a figure is flat, and on which side of the others the ends of the distance that was left out are: of these there is one.
+fn held(problem: &Problem, ends: [usize; 2], turned: bool) -> String {
+    let name = |p: usize| problem.points[p].name.as_str();
+    let all: Vec<&str> = (0..problem.points.len()).map(name).collect();
+    let others = (0..problem.points.len()).filter(|p| !ends.contains(p));
+    let others: Vec<&str> = others.map(name).collect();
+    let [a, b] = ends.map(name);
+    let on = match problem.dimension {
+        2 => "on one line",
+        _ => "in one plane",
+    };
+    let side = match turned {
+        true => "on the same side",
+        false => "on either side",
+    };
+    format!(
+        "{} {on} with {a} and {b} {side} of {}, as no figure has these distances exactly",
+        all.join(", "),
+        others.join("-")
+    )
 }
 
 /// Flat places as the reference sees them.

@@ -405,9 +405,8 @@ impl Complete {
             names,
             vec![vec![near.left_out]],
         );
-        let added = in_one_plane(problem);
         if let Some(tested) = &mut result.tested {
-            tested.added.push(added);
+            tested.added.push(near.held);
         }
         result
     }
@@ -478,20 +477,6 @@ impl Complete {
             ..Complete::empty(problem, String::new(), begin)
         }
     }
-}
-
-/// That a part is flat.
-pub(super) fn in_one_plane(problem: &Problem) -> String {
-    let names: Vec<&str> = problem.points.iter().map(|p| p.name.as_str()).collect();
-    let on = if problem.dimension == 2 {
-        "on one line"
-    } else {
-        "in one plane"
-    };
-    format!(
-        "{} {on}, as no figure has these distances exactly",
-        names.join(", ")
-    )
 }
 
 /// "No figure has these lengths: …"

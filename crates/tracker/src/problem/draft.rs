@@ -365,7 +365,7 @@ impl ProblemBuilder {
                 let value = value.map_err(ProblemError::number(place, &what));
                 let formula = match draft.items.as_slice() {
                     [text] if draft.kind == EQUATIONS => {
-                        let read = formula::read(text, self.dimension, &items);
+                        let read = formula::read(text, self.dimension, &items, objects);
                         let fault = |fault: String| ProblemError::at(place, fault);
                         Some(Box::new(read.map_err(fault)?))
                     }

@@ -1,10 +1,10 @@
-//! Equations of one's own, read: `x^2 + y^2 = a`, over unknowns, coordinates `A.x` and lengths `|A-B|`.
+//! Equations of one's own, read: `x^2 + y^2 = a`, over unknowns, coordinates `A.x`, lengths `|A-B|`, and what joints do.
 
 use super::error::did_you_mean;
 use super::expression::{Algebra, Reader};
 use super::{Decimal, Item};
 use crate::rational::Rational;
-use crate::statement::{AXES, Atom, Formula, Terms, nearest};
+use crate::statement::{AXES, Atom, Formula, Object, Shape, Terms, nearest};
 use std::collections::HashMap;
 
 /// Most terms of an equation that is multiplied out.
@@ -22,11 +22,13 @@ pub(super) fn read(
     text: &str,
     dimension: usize,
     items: &HashMap<&str, Item>,
+    objects: &[Object],
 ) -> Result<Formula, String> {
     let atoms = Vec::new();
     let algebra = Polynomials {
         dimension,
         items,
+        objects,
         atoms,
     };
     let mut reader = Reader::new(text, algebra);
@@ -50,7 +52,16 @@ pub(super) fn read(
         return Err(format!("`{text}`: {why}"));
     }
     let text = text.trim().to_owned();
-    Ok(Formula { text, atoms, zero })
+    let formula = Formula { text, atoms, zero };
+    match formula.has_turns() && formula.turns().is_none() {
+        false => Ok(formula),
+        true => Err(format!(
+            "`{}`: turns are added up, each a whole number of times up to {}, and nothing else stands beside them but a number of degrees, as in \
+             \"20*turn(A) + 30*turn(B) = 15\" (what ties a turn to a length, as a screw does, is no equation of polynomials)",
+            formula.text,
+            Formula::MOST_TURNS
+        )),
+    }
 }
 
 fn too_many_terms() -> String {
@@ -63,6 +74,7 @@ fn too_many_terms() -> String {
 struct Polynomials<'a> {
     dimension: usize,
     items: &'a HashMap<&'a str, Item>,
+    objects: &'a [Object],
     atoms: Vec<Atom>,
 }
 
@@ -80,6 +92,17 @@ impl Polynomials<'_> {
         match self.items.get(name) {
             Some(&Item::Point(point)) => Ok(point),
             _ => Err(self.unknown(name, "point", |item| matches!(item, Item::Point(_)))),
+        }
+    }
+
+    fn joint(&self, name: &str) -> Result<usize, String> {
+        let is_joint = |item: &Item| match item {
+            Item::Object(object) => matches!(self.objects[*object].shape, Shape::Joint { .. }),
+            _ => false,
+        };
+        match self.items.get(name) {
+            Some(item @ &Item::Object(joint)) if is_joint(item) => Ok(joint),
+            _ => Err(self.unknown(name, "joint", is_joint)),
         }
     }
 
@@ -119,6 +142,18 @@ impl Algebra for Polynomials<'_> {
     }
 
     fn name(&mut self, name: &str, rest: &str) -> Result<(Terms, usize), String> {
+        let of_joint = match name {
+            "turn" => Some(Atom::Turn as fn(usize) -> Atom),
+            "travel" => Some(Atom::Travel as fn(usize) -> Atom),
+            _ => None,
+        };
+        if let (Some(atom), Some(inner)) = (of_joint, rest.trim_start().strip_prefix('(')) {
+            let (joint, behind) = inner
+                .split_once(')')
+                .ok_or_else(|| format!(": `)` is missing behind {name}("))?;
+            let joint = self.joint(joint.trim())?;
+            return Ok((self.atom(atom(joint)), rest.len() - behind.len()));
+        }
         let mut behind = rest.chars();
         let coordinate = (behind.next() == Some('.'))
             .then(|| behind.next())
@@ -140,7 +175,16 @@ impl Algebra for Polynomials<'_> {
             return Ok((self.atom(Atom::Coordinate { point, axis }), 2));
         }
         match self.items.get(name) {
-            Some(&Item::Object(object)) => Ok((self.atom(Atom::Number(object)), 0)),
+            Some(&Item::Object(object)) => match self.objects[object].shape {
+                Shape::Number { .. } => Ok((self.atom(Atom::Number(object)), 0)),
+                Shape::Joint { .. } => Err(format!(
+                    ": `{name}` is a joint: turn({name}) is by how many degrees it is turned, travel({name}) how far it is drawn out"
+                )),
+                _ => {
+                    let kind = self.objects[object].kind(self.dimension);
+                    Err(format!(": `{name}` is no number: its kind is {kind}"))
+                }
+            },
             Some(Item::Point(_)) => Err(format!(
                 ": `{name}` is a point: its coordinates are {name}.x and {name}.y, and |{name}-B| is its distance from B"
             )),
@@ -228,6 +272,7 @@ impl Algebra for Polynomials<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::statement::{JointSort, Pose};
     use proptest::prelude::*;
 
     fn items() -> HashMap<&'static str, Item> {
@@ -237,7 +282,35 @@ mod tests {
             ("p-q", Item::Point(2)),
             ("x", Item::Object(0)),
             ("y", Item::Object(1)),
+            ("j", Item::Object(2)),
+            ("k 2", Item::Object(3)),
         ])
+    }
+
+    fn objects() -> [Object; 4] {
+        let of = |name: &str, shape| Object {
+            name: name.to_owned(),
+            shape,
+        };
+        let number = || Shape::Number {
+            sketch: Decimal::from(1),
+        };
+        let pose = || Pose {
+            at: [0, 0, 0].map(Decimal::from),
+            z: [0, 0, 1].map(Decimal::from),
+            x: [1, 0, 0].map(Decimal::from),
+        };
+        let joint = || Shape::Joint {
+            sort: JointSort::Revolute,
+            bodies: [0, 1],
+            frames: Box::new([pose(), pose()]),
+        };
+        [
+            of("x", number()),
+            of("y", number()),
+            of("j", joint()),
+            of("k 2", joint()),
+        ]
     }
 
     /// The polynomial where x and y have these values, and all else is 1.
@@ -265,17 +338,33 @@ mod tests {
             ("x/(y - 1) = 2", 1.0),
             ("sqrt(x) = y", -3.0),
         ] {
-            let formula = read(text, 2, &items()).unwrap();
+            let formula = read(text, 2, &items(), &objects()).unwrap();
             assert_eq!(
                 value(&formula, 3.0, 4.0) - if text.starts_with("x^2") { 12.0 } else { 0.0 },
                 wanted,
                 "{text}"
             );
         }
-        let formula = read("|B-A|*A.y = x", 2, &items()).unwrap();
+        let formula = read("|B-A|*A.y = x", 2, &items(), &objects()).unwrap();
         let wanted = [Item::Point(0), Item::Point(1), Item::Object(0)];
         assert_eq!(formula.items(), wanted);
         assert!(formula.is_placed());
+    }
+
+    #[test]
+    fn turns_of_joints_add_up() {
+        for (text, turns, degrees) in [
+            ("20*turn(j) = 30*turn( k 2 ) + 15", [(2, 2), (3, -3)], "1.5"),
+            ("turn(j)/3 + 0.5*turn(k 2)", [(2, 2), (3, 3)], "0"),
+        ] {
+            let formula = read(text, 2, &items(), &objects()).unwrap();
+            let degrees: Decimal = degrees.parse().unwrap();
+            let wanted = (turns.to_vec(), degrees.value().clone());
+            assert_eq!(formula.turns(), Some(wanted), "{text}");
+            assert_eq!(formula.items(), [Item::Object(2), Item::Object(3)]);
+        }
+        let formula = read("travel(j) = 2*x", 2, &items(), &objects()).unwrap();
+        assert_eq!(formula.turns(), None);
     }
 
     #[test]
@@ -300,8 +389,14 @@ mod tests {
             ),
             ("sqrt(-2) = x", "less than zero"),
             ("x = ", "ends where"),
+            ("j = 1", "turn(j)"),
+            ("turn(x) = 1", "no joint `x`"),
+            ("turn(j = 1", "`)` is missing"),
+            ("turn(j) = travel(j)", "turns are added up"),
+            ("turn(j)*turn(k 2) = 1", "turns are added up"),
+            ("turn(j) = 501*turn(k 2)", "up to 500"),
         ] {
-            let error = read(text, 2, &items()).unwrap_err();
+            let error = read(text, 2, &items(), &objects()).unwrap_err();
             assert!(error.contains(words), "{text}: {error}");
         }
     }
@@ -310,7 +405,7 @@ mod tests {
         /// No text makes it panic.
         #[test]
         fn no_text_panics(text in "[-+*/^().|=0-9xyABsqrt é]{0,30}") {
-            let _ = read(&text, 2, &items());
+            let _ = read(&text, 2, &items(), &objects());
         }
     }
 }

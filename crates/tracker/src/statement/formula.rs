@@ -1,8 +1,9 @@
 //! Equations of one's own, as plain data: polynomials that are to be zero.
 
-use super::{Item, Problem};
+use super::{Item, Problem, Shape};
 use crate::map::Map;
 use crate::rational::Rational;
+use num_traits::ToPrimitive;
 
 /// An equation: what was written, and the polynomial that it says is zero.
 #[derive(Debug, Clone, PartialEq)]
@@ -33,6 +34,10 @@ pub enum Atom {
     },
     /// The distance of two points, by index.
     Length([usize; 2]),
+    /// How far a joint is drawn out, by its index among the objects.
+    Travel(usize),
+    /// By how many degrees a joint is turned, up to whole turns. Where one stands in an equation, that is a sum of whole multiples of turns, and a number.
+    Turn(usize),
     /// The root that is not negative of a polynomial in the atoms before.
     Root(Terms),
     /// 1 divided by a polynomial in the atoms before.
@@ -45,7 +50,9 @@ impl Formula {
         let mut items: Vec<Item> = Vec::new();
         for atom in &self.atoms {
             let of = match *atom {
-                Atom::Number(object) => vec![Item::Object(object)],
+                Atom::Number(object) | Atom::Travel(object) | Atom::Turn(object) => {
+                    vec![Item::Object(object)]
+                }
                 Atom::Coordinate { point, .. } => vec![Item::Point(point)],
                 Atom::Length([a, b]) => vec![Item::Point(a), Item::Point(b)],
                 Atom::Root(_) | Atom::Inverse(_) => Vec::new(),
@@ -65,18 +72,53 @@ impl Formula {
         atoms.any(|atom| matches!(atom, Atom::Coordinate { .. }))
     }
 
+    /// Whether turns of joints stand in it.
+    pub fn has_turns(&self) -> bool {
+        let mut atoms = self.atoms.iter();
+        atoms.any(|atom| matches!(atom, Atom::Turn(_)))
+    }
+
+    /// The joints and how often each of their turns is taken, whole numbers without a common factor, and to how many degrees that adds up, but for
+    /// whole turns. `None`: it says something else, or a number is above [`Formula::MOST_TURNS`].
+    pub fn turns(&self) -> Option<(Vec<(usize, i64)>, Rational)> {
+        let mut degrees = Rational::zero();
+        let mut turns = Vec::with_capacity(self.atoms.len());
+        for (term, coefficient) in self.zero.iter() {
+            match term[..] {
+                [] => degrees = -coefficient,
+                [atom] => match self.atoms.get(atom)? {
+                    Atom::Turn(joint) => turns.push((*joint, coefficient)),
+                    _ => return None,
+                },
+                _ => return None,
+            }
+        }
+        let scale = Rational::to_coprime(turns.iter().map(|(_, coefficient)| *coefficient));
+        let whole = |(joint, coefficient): (usize, &Rational)| {
+            let times = (coefficient * &scale).to_integer().to_i64()?;
+            (times.abs() <= Self::MOST_TURNS).then_some((joint, times))
+        };
+        let turns: Option<Vec<_>> = turns.into_iter().map(whole).collect();
+        Some((turns.filter(|turns| !turns.is_empty())?, degrees * scale))
+    }
+
+    /// A turn is taken at most so often.
+    pub const MOST_TURNS: i64 = 500;
+
     /// Whether all that it names is there.
     #[doc(hidden)]
     pub fn is_of(&self, problem: &Problem) -> bool {
         let known =
             |terms: &Terms, before: usize| terms.keys().flatten().all(|&atom| atom < before);
+        let shape = |object: usize| problem.objects.get(object).map(|of| &of.shape);
         let atoms = self.atoms.iter().enumerate();
         known(&self.zero, self.atoms.len())
+            && (!self.has_turns() || self.turns().is_some())
             && atoms.clone().all(|(k, atom)| match atom {
-                Atom::Number(object) => problem
-                    .objects
-                    .get(*object)
-                    .is_some_and(|o| matches!(o.shape, super::Shape::Number { .. })),
+                Atom::Number(object) => matches!(shape(*object), Some(Shape::Number { .. })),
+                Atom::Travel(object) | Atom::Turn(object) => {
+                    matches!(shape(*object), Some(Shape::Joint { .. }))
+                }
                 Atom::Coordinate { point, axis } => {
                     *point < problem.points.len() && *axis < problem.dimension
                 }

@@ -10,7 +10,7 @@ pub const EQUATIONS: &str = "equations";
 /// See the module.
 pub const EQUATION: Kind = Kind {
     key: EQUATIONS,
-    meaning: "an equation of unknowns, coordinates and distances",
+    meaning: "an equation of unknowns, coordinates, distances and what joints do",
     takes: "an equation in quotes, \"x^2 + y^2 = 2\"",
     fixes,
     ..Kind::lowered_by(lower)
@@ -30,12 +30,17 @@ fn fixes(_: &Problem, of: &Constraint) -> Fixes {
 fn lower(of: Given, low: &mut Lowering) -> Result<(), Fault> {
     let formula = low.problem.constraints[low.constraint()].formula.as_ref();
     let formula = formula.ok_or("it is no equation")?;
+    if let Some((turns, degrees)) = formula.turns() {
+        return low.turns_add_up(of.name, &turns, &degrees);
+    }
     let mut atoms: Vec<Number> = Vec::with_capacity(formula.atoms.len());
     for atom in &formula.atoms {
         let number = match atom {
             &Atom::Number(object) => low.unknown_number(object),
             &Atom::Coordinate { point, axis } => low.coordinate_number(point, axis),
             &Atom::Length(ends) => low.length_number(ends)?,
+            &Atom::Travel(joint) => low.travel_number(joint)?,
+            Atom::Turn(_) => return Err("turns are added up by themselves".to_owned()),
             Atom::Root(terms) => {
                 let (sum, constant) = sum_of(terms, &atoms);
                 low.root_number(sum, constant, of.name)?

@@ -529,6 +529,13 @@ impl Lowering<'_> {
         joint: usize,
         degrees: &Rational,
     ) -> Result<(), Fault> {
+        let products = self.turned_products(joint)?;
+        let now = products.each_ref().map(|products| self.at_sketch(products));
+        self.turn_by(name, products, (now, &Real::whole(1), 0), degrees)
+    }
+
+    /// Products that are the cosine and the sine of a joint's turn.
+    pub(super) fn turned_products(&mut self, joint: usize) -> Result<[Vec<Product>; 2], Fault> {
         let made = self.assembled()?;
         let (_, sort, bodies, frames) = joints(self.problem)
             .find(|&(index, ..)| index == joint)
@@ -540,9 +547,7 @@ impl Lowering<'_> {
         let x = self.direction_of(&made, bodies[0], &frames[0][0]);
         let y = self.direction_of(&made, bodies[0], &frames[0][1]);
         let other = self.direction_of(&made, bodies[1], &frames[1][0]);
-        let products = [&x, &y].map(|along| self.dot(1, &along.forms, &other.forms));
-        let now = products.each_ref().map(|products| self.at_sketch(products));
-        self.turn_by(name, products, (now, &Real::whole(1), 0), degrees)
+        Ok([&x, &y].map(|along| self.dot(1, &along.forms, &other.forms)))
     }
 
     /// Points of a body are where its frame has them.

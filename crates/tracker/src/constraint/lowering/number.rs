@@ -5,9 +5,7 @@ use super::{Fault, Lowering, Parity};
 use crate::interval::Real;
 use crate::rational::Rational;
 use crate::statement::Shape;
-use num_bigint::BigInt;
-use num_integer::Integer;
-use num_traits::{One, Signed, ToPrimitive, Zero};
+use num_traits::ToPrimitive;
 use std::cmp::Reverse;
 use std::collections::HashMap;
 
@@ -21,6 +19,13 @@ pub struct Number {
     name: String,
 }
 
+/// A turn: its cosine and its sine.
+#[derive(Clone)]
+struct Turned {
+    name: String,
+    parts: [Number; 2],
+}
+
 /// A sum of products of numbers, each with a coefficient that is not zero; none is empty.
 pub type Sum = Vec<(Rational, Vec<Number>)>;
 
@@ -31,7 +36,11 @@ pub(super) enum Made {
     Coordinate(usize, usize),
     /// The distance of two points.
     Length([usize; 2]),
-    /// The unit in which both are counted.
+    /// How far a joint is drawn out.
+    Travel(usize),
+    /// The cosine of a joint's turn, 0, or the sine, 1.
+    Turn(usize, usize),
+    /// The unit in which lengths are counted.
     Unit,
     /// Two numbers multiplied.
     Product([Entry; 2]),
@@ -73,6 +82,118 @@ impl Lowering<'_> {
         let name = format!("|{}|", span.name);
         let at = super::super::frame::length(&span.at);
         Ok(self.measured(Made::Length(ends), name, entry, at))
+    }
+
+    /// How far a joint is drawn out.
+    pub fn travel_number(&mut self, joint: usize) -> Result<Number, Fault> {
+        let (entry, at) = self.travel_of_joint(joint)?;
+        let name = format!("travel({})", self.problem.objects[joint].name);
+        Ok(self.measured(Made::Travel(joint), name, entry, at))
+    }
+
+    /// Says that turns of joints, each taken so often, add up to so many degrees and whole turns: of the numbers on the unit circle of which they
+    /// are the arguments, the product of these powers is the number with that argument.
+    ///
+    /// # Errors
+    /// If a joint turns about no axis.
+    pub fn turns_add_up(
+        &mut self,
+        name: &str,
+        turns: &[(usize, i64)],
+        degrees: &Rational,
+    ) -> Result<(), Fault> {
+        // A factor with a turn the other way round is never the first.
+        let sign = if turns.iter().all(|(_, times)| *times < 0) {
+            -1
+        } else {
+            1
+        };
+        let mut turns: Vec<(usize, i64)> = turns.iter().map(|&(j, n)| (j, sign * n)).collect();
+        turns.sort_by_key(|(_, times)| Reverse(times.signum()));
+        let mut all: Option<Turned> = None;
+        let last = turns.len() - 1;
+        for (k, (joint, times)) in turns.into_iter().enumerate() {
+            let one = self.turned(joint)?;
+            let power = self.power(&one, times.unsigned_abs());
+            let next = match &all {
+                None => power,
+                Some(all) if k < last => self.turned_on(all, &power, times < 0),
+                Some(all) => {
+                    let products = of_both(&all.parts, &power.parts, times < 0);
+                    return self.sum_is(name, products, sign, degrees);
+                }
+            };
+            all = Some(next);
+        }
+        let parts = all.expect("there is a turn").parts;
+        let products = parts.map(|part| vec![product(&(1, vec![part]))]);
+        self.sum_is(name, products, sign, degrees)
+    }
+
+    fn sum_is(
+        &mut self,
+        name: &str,
+        products: [Vec<Product>; 2],
+        sign: i64,
+        degrees: &Rational,
+    ) -> Result<(), Fault> {
+        let now = products.each_ref().map(|products| self.at_sketch(products));
+        let degrees = degrees * &Rational::from_integer(sign.into());
+        self.turn_by(name, products, (now, &Real::whole(1), 0), &degrees)
+    }
+
+    /// A turn taken so often, by squares.
+    fn power(&mut self, one: &Turned, times: u64) -> Turned {
+        if times == 1 {
+            return one.clone();
+        }
+        let half = self.power(one, times / 2);
+        let square = self.turned_on(&half, &half, false);
+        match times % 2 {
+            0 => square,
+            _ => self.turned_on(&square, one, false),
+        }
+    }
+
+    /// One turn and then another one, or that one back.
+    fn turned_on(&mut self, one: &Turned, other: &Turned, is_back: bool) -> Turned {
+        let sign = if is_back { '-' } else { '+' };
+        let name = format!("{} {sign} {}", one.name, other.name);
+        let products = of_both(&one.parts, &other.parts, is_back);
+        self.cosine_and_sine(name, products, |_| None)
+    }
+
+    /// By how much a joint is turned.
+    fn turned(&mut self, joint: usize) -> Result<Turned, Fault> {
+        let products = self.turned_products(joint)?;
+        let name = format!("turn({})", self.problem.objects[joint].name);
+        Ok(self.cosine_and_sine(name, products, |k| Some(Made::Turn(joint, k))))
+    }
+
+    /// Numbers that are these sums of products; one that was made before under what `made` says is taken again.
+    fn cosine_and_sine(
+        &mut self,
+        name: String,
+        products: [Vec<Product>; 2],
+        made: impl Fn(usize) -> Option<Made>,
+    ) -> Turned {
+        let mut which = ["cosine", "sine"].into_iter().enumerate();
+        let parts = products.map(|mut products| {
+            let (k, what) = which.next().expect("there are two");
+            if let Some(number) = made(k).and_then(|made| self.numbers.get(&made)) {
+                return number.clone();
+            }
+            let (name, at) = (format!("the {what} of {name}"), self.at_sketch(&products));
+            let entry = self.scalar(name.clone(), 0, Parity::Even, at.clone());
+            products.push(Product::new(-1, value(entry), Form::One));
+            self.equate(&name, products, vec![Real::zero()], 0);
+            let number = Number { entry, at, name };
+            match made(k) {
+                Some(made) => self.kept(made, number),
+                None => number,
+            }
+        });
+        Turned { name, parts }
     }
 
     /// How often the unit goes into a length with a sign: n · 1 = length, where the 1 is a length.
@@ -274,6 +395,16 @@ impl Lowering<'_> {
     }
 }
 
+/// Real and imaginary part of a product of two complex numbers, or with the other one's conjugate.
+fn of_both([a, b]: &[Number; 2], [c, d]: &[Number; 2], is_back: bool) -> [Vec<Product>; 2] {
+    let sign = if is_back { -1 } else { 1 };
+    let parts = [[(1, a, c), (-sign, b, d)], [(sign, a, d), (1, b, c)]];
+    parts.map(|part| {
+        let terms = part.map(|(factor, x, y)| product(&(factor, vec![x.clone(), y.clone()])));
+        terms.to_vec()
+    })
+}
+
 /// A term of at most two numbers.
 fn product((factor, factors): &(i64, Vec<Number>)) -> Product {
     let form = |k: usize| factors.get(k).map_or(Form::One, |f| value(f.entry));
@@ -321,20 +452,10 @@ fn evaluated(sum: &Sum) -> Real {
 
 /// By what coefficients are multiplied, so that they are whole numbers without a common factor; 1 where some are too large then.
 fn scale(sum: &Sum) -> Rational {
-    let denominators = sum.iter().map(|(c, _)| c.denom());
-    let common = denominators.fold(BigInt::one(), |all, one| all.lcm(one));
-    let whole = |c: &Rational| c.numer() * (&common / c.denom());
-    let divisor = sum
-        .iter()
-        .fold(BigInt::zero(), |all, (c, _)| all.gcd(&whole(c)));
-    let divisor = if divisor.is_zero() {
-        BigInt::one()
-    } else {
-        divisor
-    };
-    let largest = sum.iter().map(|(c, _)| whole(c).abs() / &divisor).max();
-    match largest.is_some_and(|largest| largest <= LARGEST.into()) {
-        true => Rational::new(common, divisor),
+    let scale = Rational::to_coprime(sum.iter().map(|(c, _)| c));
+    let most = Rational::from_integer(LARGEST.into());
+    match sum.iter().all(|(c, _)| (c * &scale).abs() <= most) {
+        true => scale,
         false => Rational::one(),
     }
 }
