@@ -135,7 +135,7 @@ fn describe_sketches(file: &Path, which: &input::Which) -> Result<(String, u8), 
         for one in &listed {
             let drawn = counted(one.drawn, "thing");
             let constraints = counted(one.constraints, "constraint");
-            text += &format!("  {}: {drawn} drawn, {constraints}\n", one.name);
+            text += &format!("  {}: {drawn} drawn, {constraints}\n", one.title());
         }
         return Ok((text, CLOSED));
     }

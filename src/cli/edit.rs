@@ -151,6 +151,11 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
             None => named.push((name, value)),
         }
     }
+    let is_parameter = |(name, _): &(&str, &str)| problem.parameters.iter().any(|(p, _)| p == name);
+    let parameter = named
+        .iter()
+        .find(|one| is_parameter(one))
+        .map(|(name, _)| name.to_string());
     let asked = Asked::new(&problem, &named).map_err(in_file(file))?;
     let led: Vec<usize> = asked.given.iter().map(|setting| setting.index).collect();
     loaded.check_numbers(&led).map_err(in_file(file))?;
@@ -234,6 +239,9 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
     loaded.add_left_out(&mut edited.account, Some(&edited.points));
     if edited.ending != Ending::Reached {
         followed.note_way();
+        followed
+            .warnings
+            .extend(parameter.map(|name| no_limit_of(&name)));
     }
     let moved = session.moved();
 
@@ -369,6 +377,14 @@ pub(super) fn commit(
         false => Ok((false, None)),
         true => Ok((true, check_written(path, false, quiet)?)),
     }
+}
+
+/// That what was led along a straight way says nothing of a parameter's limits.
+pub(super) fn no_limit_of(parameter: &str) -> String {
+    format!(
+        "on the way every dimension goes straight to what it is to be, and not as the file's expressions of `{parameter}` do: where that ends is no \
+         limit of `{parameter}` (`krawl sweep --vary {parameter}` with many frames comes near to one)"
+    )
 }
 
 /// What is said of a drawing that is singular, and of outlines that are kept apart, a line of text each.

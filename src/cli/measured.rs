@@ -17,8 +17,7 @@ pub(super) struct Measured {
     ///
     /// May be given several times, and with a name, "gap = A-B": `A-B`, `angle A B C`, `turn A B C` (with its sense, from −180 to 180), `torsion A
     /// B C D`, `x A`, `area A B C ...` (of an outline that does not cross itself); of a joint `turn J` and `travel
-    /// J`, of a circle, sphere or arc `radius C`, of an unknown `value x` (these four not in `motion` and
-    /// `tolerance`)
+    /// J`, of a circle, sphere or arc `radius C`, of an unknown `value x`
     #[arg(long = "measure", value_name = "WHAT")]
     measure: Vec<String>,
 }
@@ -29,7 +28,7 @@ impl Measured {
         self.measure.is_empty()
     }
 
-    /// What is to be measured of the points of a problem: what the file wants, by its names, and what was asked for.
+    /// What is to be measured of a problem: what the file wants, by its names, and what was asked for.
     pub fn texts(&self, problem: &Problem) -> Vec<String> {
         let own = of_file(problem);
         let has_meaning = |found: Quantity| problem.is_absolute() || found.is_invariant();
@@ -49,20 +48,6 @@ impl Measured {
             })?;
         }
         Measures::parse(problem, &[&own[..], &self.measure].concat())
-    }
-
-    /// Of the points of a problem alone.
-    pub fn of_points(&self, problem: &Problem) -> Result<Measures, String> {
-        // What the file wants has to be something in any case.
-        self.of(problem)?;
-        let asked = Measures::parse(problem, &self.measure)?;
-        match asked.of_an_object() {
-            Some(name) => Err(format!(
-                "--measure \"{name}\": numbers of objects are measured by solve, all, edit and sweep; motion and tolerance measure lengths, \
-                 angles, coordinates and areas of points"
-            )),
-            None => Measures::parse(problem, &self.texts(problem)),
-        }
     }
 }
 

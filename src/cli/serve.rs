@@ -8,7 +8,7 @@ use krawl::track::Control;
 use serde::Deserialize;
 use serde_json::value::RawValue;
 use serde_json::{Value, json};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, VecDeque};
 use std::io::{self, BufRead, Write};
 
 /// Longest line that is read.
@@ -27,13 +27,102 @@ struct Request<'a> {
     /// Whether the figure stays what it is.
     #[serde(default)]
     probe: bool,
+    /// Goes back to the figure before the last one that was taken.
+    #[serde(default)]
+    undo: bool,
+    /// Keeps the figure under this name.
+    #[serde(default)]
+    keep: Option<String>,
+    /// Goes back to the figure that was kept under this name.
+    #[serde(default)]
+    back: Option<String>,
     /// Whatever it is, it comes back with the answer.
     #[serde(default)]
     id: Option<Value>,
 }
 
+/// So many figures can be gone back to by `undo`, and so many are kept by name.
+const MOST_KEPT: usize = 100;
+
+/// A session, and figures that can be gone back to.
+struct Figures<'a> {
+    session: &'a mut Session,
+    before: VecDeque<Session>,
+    kept: BTreeMap<String, Session>,
+}
+
+impl Figures<'_> {
+    /// Does something that may give the session another figure: whether it has.
+    fn changed<T>(&mut self, does: impl FnOnce(&mut Session) -> (T, bool)) -> (T, bool) {
+        let before = self.session.clone();
+        let (result, is_changed) = does(self.session);
+        if is_changed {
+            self.remember(before);
+        }
+        (result, is_changed)
+    }
+
+    fn remember(&mut self, before: Session) {
+        if self.before.len() == MOST_KEPT {
+            self.before.pop_front();
+        }
+        self.before.push_back(before);
+    }
+
+    /// Goes back, or keeps a figure, if that is asked for: the figure as it then is. `None`: neither is.
+    fn recall(&mut self, request: &Request) -> Option<Result<Value, String>> {
+        let asked = [request.undo, request.keep.is_some(), request.back.is_some()];
+        let count = asked.iter().filter(|asked| **asked).count();
+        let is_alone = request.set.is_empty() && request.drag.is_empty() && !request.probe;
+        match count {
+            0 => return None,
+            1 if is_alone => {}
+            _ => {
+                let why = "`undo`, `keep` and `back` each stand in a line of their own";
+                return Some(Err(why.to_owned()));
+            }
+        }
+        if let Some(name) = &request.keep {
+            if self.kept.len() == MOST_KEPT && !self.kept.contains_key(name) {
+                return Some(Err(format!("{MOST_KEPT} figures are kept at most")));
+            }
+            self.kept.insert(name.clone(), self.session.clone());
+        } else if let Some(name) = &request.back {
+            let Some(kept) = self.kept.get(name) else {
+                let names: Vec<&str> = self.kept.keys().map(String::as_str).collect();
+                let names = match names.is_empty() {
+                    true => "none are".to_owned(),
+                    false => names.join(", "),
+                };
+                return Some(Err(format!("no figure is kept as `{name}`; kept: {names}")));
+            };
+            let now = std::mem::replace(self.session, kept.clone());
+            self.remember(now);
+        } else {
+            let Some(before) = self.before.pop_back() else {
+                return Some(Err("there is nothing to undo".to_owned()));
+            };
+            *self.session = before;
+        }
+        Some(Ok(self.standing()))
+    }
+
+    /// The figure as it is, and what can be gone back to.
+    fn standing(&self) -> Value {
+        let mut standing = json!(Standing::new(self.session));
+        standing["undo"] = json!(self.before.len());
+        standing["kept"] = json!(self.kept.keys().collect::<Vec<_>>());
+        standing
+    }
+}
+
 /// Answers lines until there are no more, or nobody reads the answers. The result: whether all is well.
 pub fn serve(session: &mut Session, loaded: &Loaded) -> bool {
+    let mut figures = Figures {
+        session,
+        before: VecDeque::new(),
+        kept: BTreeMap::new(),
+    };
     let mut input = io::stdin().lock();
     let mut output = io::stdout().lock();
     let mut line = Vec::new();
@@ -55,7 +144,7 @@ pub fn serve(session: &mut Session, loaded: &Loaded) -> bool {
         if line.iter().all(u8::is_ascii_whitespace) {
             continue;
         }
-        let answer = answer(session, loaded, &line);
+        let answer = answer(&mut figures, loaded, &line);
         if writeln!(output, "{answer}")
             .and_then(|()| output.flush())
             .is_err()
@@ -65,7 +154,7 @@ pub fn serve(session: &mut Session, loaded: &Loaded) -> bool {
     }
 }
 
-fn answer(session: &mut Session, loaded: &Loaded, line: &[u8]) -> Value {
+fn answer(figures: &mut Figures, loaded: &Loaded, line: &[u8]) -> Value {
     // A list would be taken for the values of an object.
     let is_object = line.trim_ascii_start().starts_with(b"{");
     let request: Request = match serde_json::from_slice(line) {
@@ -78,41 +167,56 @@ fn answer(session: &mut Session, loaded: &Loaded, line: &[u8]) -> Value {
             return json!({"status": "error", "reason": format!("{error}; {example}")});
         }
     };
-    let mut answer = match settings(session, loaded, &request) {
-        _ if !request.drag.is_empty() => match drags(session, &request) {
-            Err(reason) => json!({"status": "error", "reason": reason}),
-            Ok(drags) => {
-                let mut edited = session.drag(&drags, &mut Control::default());
-                loaded.add_left_out(&mut edited.account, Some(&edited.points));
-                let mut answer = Answer::of(session, &edited);
-                let is_moved = edited.dragged.is_some_and(|dragged| dragged.legs > 0);
-                answer.edit.committed = Some(is_moved);
-                json!(answer)
-            }
-        },
+    let mut answer = match answered(figures, loaded, &request) {
+        Ok(answer) => answer,
         Err(reason) => json!({"status": "error", "reason": reason}),
-        Ok((settings, _)) if settings.is_empty() => json!(Standing::new(session)),
-        Ok((settings, mut followed)) => {
-            let mut control = Control::default();
-            let mut edited = match request.probe {
-                true => session.probe(&settings, &mut control),
-                false => session.edit_with(&settings, &mut control),
-            };
-            loaded.add_left_out(&mut edited.account, Some(&edited.points));
-            if edited.ending != Ending::Reached {
-                followed.note_way();
-            }
-            let mut answer = Answer::of(session, &edited);
-            answer.edit.follow(session.problem(), &followed);
-            let is_committed = !request.probe && edited.ending == Ending::Reached;
-            answer.edit.committed = Some(is_committed);
-            json!(answer)
-        }
     };
     if let Some(id) = request.id {
         answer["id"] = id;
     }
     answer
+}
+
+fn answered(figures: &mut Figures, loaded: &Loaded, request: &Request) -> Result<Value, String> {
+    if let Some(recalled) = figures.recall(request) {
+        return recalled;
+    }
+    let mut control = Control::default();
+    if !request.drag.is_empty() {
+        let drags = drags(figures.session, request)?;
+        let (mut edited, is_moved) = figures.changed(|session| {
+            let edited = session.drag(&drags, &mut control);
+            let is_moved = edited
+                .dragged
+                .as_ref()
+                .is_some_and(|dragged| dragged.legs > 0);
+            (edited, is_moved)
+        });
+        loaded.add_left_out(&mut edited.account, Some(&edited.points));
+        let mut answer = Answer::of(figures.session, &edited);
+        answer.edit.committed = Some(is_moved);
+        return Ok(json!(answer));
+    }
+    let (settings, mut followed) = settings(figures.session, loaded, request)?;
+    if settings.is_empty() {
+        return Ok(figures.standing());
+    }
+    let (mut edited, is_committed) = match request.probe {
+        true => (figures.session.probe(&settings, &mut control), false),
+        false => figures.changed(|session| {
+            let edited = session.edit_with(&settings, &mut control);
+            let is_reached = edited.ending == Ending::Reached;
+            (edited, is_reached)
+        }),
+    };
+    loaded.add_left_out(&mut edited.account, Some(&edited.points));
+    if edited.ending != Ending::Reached {
+        followed.note_way();
+    }
+    let mut answer = Answer::of(figures.session, &edited);
+    answer.edit.follow(figures.session.problem(), &followed);
+    answer.edit.committed = Some(is_committed);
+    Ok(json!(answer))
 }
 
 /// The text of a number, never a float: 5.2 is 52/10.

@@ -95,7 +95,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
         Ok((name.trim().to_owned(), deviations(value)?))
     });
     let named = named.collect::<Result<Vec<_>, String>>()?;
-    arguments.measured.of_points(&problem)?;
+    arguments.measured.of(&problem)?;
     let limits = limits(&problem, &named, default.as_ref());
     let limits = limits.map_err(|error| format!("{}: {error}", file.display()))?;
     let limited: Vec<usize> = limits.iter().map(|one| one.index).collect();

@@ -94,6 +94,7 @@ fn check(arguments: &Arguments) -> Result<u8, String> {
         let found = compare(of_file, proved.is_about);
         let of_it = |file: &Path| of_the_set(file, proved.compared, found.as_ref());
         let said = (proved.text, proved.code);
+        let of_file = (of_file, false);
         return Ok(conclude(arguments, said, (found.is_some(), of_it), of_file));
     }
     let settings = Settings {
@@ -121,7 +122,7 @@ fn check(arguments: &Arguments) -> Result<u8, String> {
         let of_it = |file: &Path| of_the_motion(file, found.flatten());
         let said = (theorem(&verdict, clock.elapsed()), code(&verdict.outcome));
         let of_file = of_file.as_ref().map(std::slice::from_ref);
-        return Ok(conclude(arguments, said, (same, of_it), of_file));
+        return Ok(conclude(arguments, said, (same, of_it), (of_file, true)));
     }
     let of_file = of_file()?;
     let of_file = of_file.as_deref();
@@ -142,7 +143,7 @@ fn check(arguments: &Arguments) -> Result<u8, String> {
         ),
     };
     let said = (theorem(&verdict, clock.elapsed()), code(&verdict.outcome));
-    Ok(conclude(arguments, said, (same, of_it), of_file))
+    Ok(conclude(arguments, said, (same, of_it), (of_file, false)))
 }
 
 /// The exit code of what was found.
@@ -160,7 +161,10 @@ fn code(outcome: &Outcome) -> u8 {
 fn of_the_motion(file: &Path, found: Option<(Vec<String>, f64, Account)>) -> String {
     let file = file.display();
     let Some((missing, off, account)) = found else {
-        return format!("REFUTED: it is no motion of the figure in {file}.\n");
+        return format!(
+            "REFUTED: the points, the objects, the constraints, or where points are drawn, are in the proof not those in {file}: whether it is a motion of \
+             that figure, too, was not looked at.\n"
+        );
     };
     let but = match &missing[..] {
         [] => String::new(),
@@ -213,8 +217,11 @@ fn of_file(
 }
 
 /// What a certificate does not say where its file asks for signs.
-fn without_signs(of_file: OfFile) -> &'static str {
+fn without_signs(of_file: OfFile, is_motion: bool) -> &'static str {
     match of_file {
+        Some([(problem, _), ..]) if is_motion && !problem.orientations.is_empty() => {
+            "The signs that the file asks for (`orientation`) are no part of the proof: it is of figures with any signs.\n"
+        }
         Some([(problem, _), ..]) if !problem.orientations.is_empty() => {
             "The signs that the file asks for (`orientation`) are no part of the proof: it is of figures with any signs. Which \
              of them have those of the file is told by their boxes, in `krawl solve` and `krawl all`.\n"
@@ -296,10 +303,10 @@ fn conclude(
     arguments: &Arguments,
     (mut text, code): (String, u8),
     (same, of_it): (bool, impl FnOnce(&Path) -> String),
-    of_file: OfFile,
+    (of_file, is_motion): (OfFile, bool),
 ) -> u8 {
     text += &arguments.file.as_deref().map(of_it).unwrap_or_default();
-    text += without_signs(of_file);
+    text += without_signs(of_file, is_motion);
     let is_printed = arguments.quiet || output::print(&text);
     output::code(is_printed, if same { code } else { REFUTED })
 }

@@ -126,6 +126,13 @@ fn listed<'a>(object: Node<'a, 'a>, key: &str, tag: &'static str) -> Vec<Node<'a
         .collect()
 }
 
+/// What FreeCAD shows for an object's name.
+fn label<'a>(object: Node<'a, 'a>) -> Option<&'a str> {
+    listed(object, "Label", "String")
+        .first()?
+        .attribute("value")
+}
+
 fn constraints<'a>(object: Node<'a, 'a>) -> Vec<Node<'a, 'a>> {
     listed(object, "Constraints", "Constrain")
 }
@@ -144,6 +151,9 @@ pub fn list(bytes: &[u8]) -> Result<Vec<Listed>, String> {
     let listed = sketches(&document)
         .into_iter()
         .map(|(object, name)| Listed {
+            label: label(object)
+                .filter(|label| *label != name)
+                .map(str::to_owned),
             name,
             drawn: geometry(object, "Geometry").len(),
             constraints: constraints(object)

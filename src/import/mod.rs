@@ -82,10 +82,22 @@ const NO_FREECAD: &str =
 pub struct Listed {
     /// Its name, for [`read`].
     pub name: String,
+    /// What its program shows for the name, where that is something else: also for [`read`], if no other sketch is called so.
+    pub label: Option<String>,
     /// How many points, lines, circles and arcs are drawn in it.
     pub drawn: usize,
     /// How many constraints it has that drive it.
     pub constraints: usize,
+}
+
+impl Listed {
+    /// Its name, and what its program shows for it.
+    pub fn title(&self) -> String {
+        match &self.label {
+            Some(label) => format!("{} (\"{label}\")", self.name),
+            None => self.name.clone(),
+        }
+    }
 }
 
 /// A sketch as krawl understands it.
@@ -225,7 +237,16 @@ fn read_with(
 ) -> Result<Imported, ImportError> {
     let all = list(file, bytes)?;
     let index = match sketch {
-        Some(name) => all.iter().position(|listed| listed.name == name),
+        Some(name) => {
+            let named = all.iter().position(|listed| listed.name == name);
+            let labelled = |listed: &Listed| listed.label.as_deref() == Some(name);
+            let only = || {
+                let first = all.iter().position(labelled)?;
+                let last = all.iter().rposition(labelled)?;
+                (first == last).then_some(first)
+            };
+            named.or_else(only)
+        }
         None => (all.len() == 1).then_some(0),
     };
     let index = index.ok_or_else(|| match (sketch, all.is_empty()) {
@@ -237,7 +258,7 @@ fn read_with(
                 None => format!("there are {} sketches in it", all.len()),
             },
             names: {
-                let names: Vec<&str> = all.iter().map(|listed| listed.name.as_str()).collect();
+                let names: Vec<String> = all.iter().map(Listed::title).collect();
                 names.join(", ")
             },
         },

@@ -264,6 +264,7 @@ pub fn list(bytes: &[u8]) -> Result<Vec<Listed>, String> {
             .filter(|c| c.whole("reference") == 0 && c.whole("type") != COMMENT);
         Listed {
             name,
+            label: None,
             drawn: contents
                 .records
                 .iter()

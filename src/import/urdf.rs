@@ -74,14 +74,16 @@ pub fn problem_file(xml: &str) -> Result<String, String> {
             JointSort::Prismatic => Some(("travel", &mut travels)),
             _ => None,
         };
-        let mut children = joint.children();
+        let (mut children, mut sketch) = (joint.children(), String::new());
         match (
             moves,
             children.find(|node| node.tag_name().name() == "mimic"),
         ) {
             (Some((does, _)), Some(mimic)) => {
-                let leader = attribute(mimic, "joint")?;
-                follows.push((name.clone(), does, leader.to_owned(), mimic));
+                let one = Follower::read(mimic, &name, does)?;
+                // Where the other one is drawn, at 0, it is off by so much.
+                sketch = format!(", sketch = {}", one.offset);
+                follows.push(one);
             }
             (Some((does, all)), None) => {
                 all.push(name.clone());
@@ -104,7 +106,7 @@ pub fn problem_file(xml: &str) -> Result<String, String> {
             format!("[{a}, {b}]")
         };
         joints += &format!(
-            "{} = {{ {} = [{first}, {second}], at = {}, z = {}, x = {} }}\n",
+            "{} = {{ {} = [{first}, {second}], at = {}, z = {}, x = {}{sketch} }}\n",
             quoted(&name),
             sort.name(),
             pair(|p| &p.at),
@@ -115,35 +117,7 @@ pub fn problem_file(xml: &str) -> Result<String, String> {
     if joints.is_empty() {
         return Err("there is no joint in it".to_owned());
     }
-    let equations = follows.iter().map(|(name, does, leader, mimic)| {
-        let wrong =
-            |why: &str| format!("line {}: `{name}` follows `{leader}`, {why}", line(*mimic));
-        let (led, by) = does_of
-            .get(leader)
-            .ok_or_else(|| wrong("which is no joint that moves by itself"))?;
-        if by != does {
-            return Err(wrong(
-                "and one of them turns, the other one travels: a screw, which is not read",
-            ));
-        }
-        let number = |key: &str, otherwise: i32| match mimic.attribute(key) {
-            None => Ok(Decimal::from(otherwise)),
-            Some(text) => text
-                .parse::<Decimal>()
-                .map_err(|error| wrong(&format!("{key}=\"{text}\": {error}"))),
-        };
-        let (times, offset) = (number("multiplier", 1)?, number("offset", 0)?);
-        let offset = match *does {
-            "turn" => match quarters(&offset) {
-                Some(quarters) => (90.0 * quarters).to_string(),
-                None => offset.to_f64().to_degrees().to_string(),
-            },
-            _ => offset.to_string(),
-        };
-        Ok(quoted(&format!(
-            "{does}({name}) = {times} * {does}({led}) + {offset}"
-        )))
-    });
+    let equations = follows.iter().map(|one| one.equation(&does_of));
     let equations = equations.collect::<Result<Vec<_>, String>>()?;
     let mut out = String::new();
     let name = root.attribute("name").unwrap_or("robot");
@@ -165,6 +139,69 @@ pub fn problem_file(xml: &str) -> Result<String, String> {
         out += &format!("equations = [{}]\n", equations.join(", "));
     }
     Ok(out)
+}
+
+/// A joint that follows another one.
+struct Follower {
+    name: String,
+    /// `turn` or `travel`.
+    does: &'static str,
+    /// The other one, as it is called in the file.
+    leader: String,
+    /// How often it goes as far as that.
+    times: Decimal,
+    /// And how much further: degrees, or a length.
+    offset: String,
+    line: u32,
+}
+
+impl Follower {
+    fn read(mimic: Node, name: &str, does: &'static str) -> Result<Self, String> {
+        let number = |key: &str, otherwise: i32| match mimic.attribute(key) {
+            None => Ok(Decimal::from(otherwise)),
+            Some(text) => text.parse::<Decimal>().map_err(|error| {
+                format!("line {}: `{name}`: {key}=\"{text}\": {error}", line(mimic))
+            }),
+        };
+        let offset = number("offset", 0)?;
+        Ok(Follower {
+            name: name.to_owned(),
+            does,
+            leader: attribute(mimic, "joint")?.to_owned(),
+            times: number("multiplier", 1)?,
+            offset: match (does, quarters(&offset)) {
+                ("turn", Some(quarters)) => (90.0 * quarters).to_string(),
+                ("turn", None) => offset.to_f64().to_degrees().to_string(),
+                _ => offset.to_string(),
+            },
+            line: line(mimic),
+        })
+    }
+
+    /// The equation, as a text in quotes. `others`: what joints that move by themselves are called, by their names in the file, and what they do.
+    fn equation(&self, others: &HashMap<String, (String, &'static str)>) -> Result<String, String> {
+        let Follower {
+            name,
+            does,
+            leader,
+            times,
+            offset,
+            line,
+        } = self;
+        let (led, by) = others.get(leader).ok_or_else(|| {
+            format!(
+                "line {line}: `{name}` follows `{leader}`, which is no joint that moves by itself"
+            )
+        })?;
+        match by == does {
+            true => Ok(quoted(&format!(
+                "{does}({name}) = {times} * {does}({led}) + {offset}"
+            ))),
+            false => Err(format!(
+                "line {line}: `{name}` follows `{leader}`, and one of them turns, the other one travels: a screw, which is not read"
+            )),
+        }
+    }
 }
 
 /// A text in quotes; what JSON escapes TOML escapes likewise.

@@ -83,9 +83,15 @@ pub(super) fn write_points(
     }
 }
 
-/// Points with their certain digits, a line each, not aligned.
-pub(super) fn write_digits(out: &mut String, problem: &Problem, points: &[[Interval; 3]]) {
-    for (point, place) in problem.points.iter().zip(points) {
+/// Points with their certain digits, a line each, not aligned: those that are shown, by number.
+pub(super) fn write_digits(
+    out: &mut String,
+    problem: &Problem,
+    points: &[[Interval; 3]],
+    is_shown: impl Fn(usize) -> bool,
+) {
+    let all = problem.points.iter().zip(points).enumerate();
+    for (_, (point, place)) in all.filter(|(p, _)| is_shown(*p)) {
         *out += &format!("  {}", point.name);
         for x in place.iter().take(problem.dimension) {
             *out += &format!("  {:>18}", certain_digits(*x));

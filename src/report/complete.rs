@@ -9,7 +9,7 @@ use crate::certificate::cover::CoverVerdict;
 use crate::complete::{Among, Choice, Complete, Method, Status, Tested, Why};
 use crate::constraint::{Symmetry, symmetry};
 use crate::problem::{Object, Problem, Shape, counted, either, list};
-use crate::track::Mode;
+use crate::track::{Mode, Solution};
 
 /// Of the parts that a sketch falls apart into, so many are shown.
 const SHOWN: usize = 12;
@@ -38,6 +38,20 @@ pub(super) fn why(why: Why) -> &'static str {
     }
 }
 
+/// Which points are in the same place in all solutions, where there are so many that it is not told with each.
+fn standing(solutions: &[Solution]) -> Vec<bool> {
+    /// From so many on.
+    const MANY: usize = 3;
+    let [first, rest @ ..] = solutions else {
+        return Vec::new();
+    };
+    let is_same = |p: usize| rest.iter().all(|other| other.points[p] == first.points[p]);
+    let points = 0..first.points.len();
+    points
+        .map(|p| solutions.len() >= MANY && is_same(p))
+        .collect()
+}
+
 /// The result as a text of several lines: what is proved, the solutions, the numbers of the search.
 pub fn complete_to_table(problem: &Problem, result: &Complete) -> String {
     let mut out = format!("{}: {}\n", problem.name, verdict(problem, result));
@@ -61,13 +75,20 @@ pub fn complete_to_table(problem: &Problem, result: &Complete) -> String {
             why(part.why)
         );
     }
+    let standing = standing(&result.solutions);
+    if let Some(first) = result.solutions.first()
+        && standing.contains(&true)
+    {
+        out += "\nIn all of them\n";
+        write_digits(&mut out, problem, &first.points, |p| standing[p]);
+    }
     for (index, solution) in result.solutions.iter().enumerate() {
         out += &format!(
             "\nSolution {}, relative width {:.1e}\n",
             index + 1,
             solution.width
         );
-        write_digits(&mut out, problem, &solution.points);
+        write_digits(&mut out, problem, &solution.points, |p| !standing[p]);
         write_objects(&mut out, problem, Mode::Certified, &solution.objects);
         let account = Account {
             left_out: figure(result, index).to_vec(),

@@ -270,7 +270,7 @@ pub fn explore_to_table(explored: &Explored, coordinates: bool) -> String {
     if coordinates {
         for class in &contents.classes {
             out += &format!("\nSolution {}\n", class.id + 1);
-            write_digits(&mut out, problem, &intervals(&class.points));
+            write_digits(&mut out, problem, &intervals(&class.points), |_| true);
         }
         out += &format!("\n{DIGITS}\n");
     }

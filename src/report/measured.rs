@@ -3,8 +3,8 @@
 use super::certain_digits;
 use super::document::Measured;
 use crate::interval::Interval;
-use crate::problem::{Problem, Shape};
-use crate::system::{Located, Quantity, with_a_name};
+use crate::problem::Problem;
+use crate::system::{Located, Quantity};
 
 /// A figure: enclosures of its points, and where its objects are.
 pub type Placed<'f> = (&'f [[Interval; 3]], &'f [Located]);
@@ -12,110 +12,7 @@ pub type Placed<'f> = (&'f [[Interval; 3]], &'f [Located]);
 /// What is measured of each figure of a problem.
 #[derive(Debug, Clone, Default)]
 pub struct Measures {
-    all: Vec<Measure>,
-}
-
-#[derive(Debug, Clone)]
-enum Measure {
-    /// Of points.
-    Quantity(Quantity),
-    /// A number that an object has: its name as it was given, and the object.
-    Number(String, Part, usize),
-}
-
-/// Which number of an object.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Part {
-    /// By how many degrees a joint is turned.
-    Turn,
-    /// How far a joint has travelled.
-    Travel,
-    /// The radius of a circle, sphere or arc.
-    Radius,
-    /// The value of an unknown number.
-    Value,
-}
-
-impl Part {
-    /// The part that a word names, and what has it.
-    fn named(word: &str) -> Option<(Part, &'static str)> {
-        Some(match word {
-            "turn" => (Part::Turn, "joint that turns about one axis"),
-            "travel" => (Part::Travel, "joint that travels along its axis"),
-            "radius" => (Part::Radius, "circle, sphere or arc"),
-            "value" => (Part::Value, "unknown"),
-            _ => return None,
-        })
-    }
-
-    fn is_of(self, shape: &Shape) -> bool {
-        match (self, shape) {
-            (Part::Turn, Shape::Joint { sort, .. }) => sort.turns(),
-            (Part::Travel, Shape::Joint { sort, .. }) => sort.travels(),
-            (Part::Radius, Shape::Round { .. } | Shape::Arc { .. })
-            | (Part::Value, Shape::Number { .. }) => true,
-            _ => false,
-        }
-    }
-
-    fn of(self, object: &Located) -> Option<Interval> {
-        match (self, object) {
-            (Part::Turn, Located::Joint { turn, .. }) => *turn,
-            (Part::Travel, Located::Joint { travel, .. }) => *travel,
-            (Part::Radius | Part::Value, object) => object.number(),
-            _ => None,
-        }
-    }
-}
-
-impl Measure {
-    fn parse(problem: &Problem, text: &str) -> Result<Self, String> {
-        let call = |found: &mut Self, own| match found {
-            Measure::Quantity(quantity) => quantity.name = own,
-            Measure::Number(name, ..) => *name = own,
-        };
-        with_a_name(text, |text| Self::unnamed(problem, text), call)
-    }
-
-    fn unnamed(problem: &Problem, text: &str) -> Result<Self, String> {
-        // Names of points may be anything.
-        let why = match Quantity::parse(problem, text) {
-            Ok(quantity) => return Ok(Measure::Quantity(quantity)),
-            Err(why) => why,
-        };
-        let named = text.split_once(char::is_whitespace);
-        let Some((part, what, name)) = named.and_then(|(word, name)| {
-            let (part, what) = Part::named(word)?;
-            Some((part, what, name.trim()))
-        }) else {
-            return Err(why);
-        };
-        let mut objects = problem.objects.iter();
-        match objects.position(|o| o.name == name && part.is_of(&o.shape)) {
-            Some(object) => Ok(Measure::Number(text.to_owned(), part, object)),
-            // `turn A B C` is of points.
-            None if part == Part::Turn && name.contains(char::is_whitespace) => Err(why),
-            None => Err(format!("--measure \"{text}\": there is no {what} `{name}`")),
-        }
-    }
-
-    fn name(&self) -> &str {
-        match self {
-            Measure::Quantity(quantity) => &quantity.name,
-            Measure::Number(name, ..) => name,
-        }
-    }
-
-    fn of(&self, (points, objects): Placed) -> Interval {
-        match self {
-            Measure::Quantity(quantity) => quantity.of(points),
-            // An object that is nowhere told of may have any number.
-            Measure::Number(_, part, object) => {
-                let number = objects.get(*object).and_then(|object| part.of(object));
-                number.unwrap_or(Interval::ENTIRE)
-            }
-        }
-    }
+    all: Vec<Quantity>,
 }
 
 impl Measures {
@@ -124,18 +21,9 @@ impl Measures {
     /// # Errors
     /// Which text is none, and why.
     pub fn parse(problem: &Problem, texts: &[String]) -> Result<Self, String> {
-        let all = texts.iter().map(|text| Measure::parse(problem, text));
+        let all = texts.iter().map(|text| Quantity::parse(problem, text));
         Ok(Measures {
             all: all.collect::<Result<_, _>>()?,
-        })
-    }
-
-    /// The first measure that is of no points, as it was given.
-    pub fn of_an_object(&self) -> Option<&str> {
-        let mut all = self.all.iter();
-        all.find_map(|measure| match measure {
-            Measure::Quantity(_) => None,
-            Measure::Number(name, ..) => Some(name.as_str()),
         })
     }
 
@@ -146,21 +34,22 @@ impl Measures {
 
     /// The names, as they were given.
     pub fn names(&self) -> impl Iterator<Item = &str> {
-        self.all.iter().map(Measure::name)
+        self.all.iter().map(|quantity| &*quantity.name)
     }
 
     /// Enclosures of all for a figure.
-    pub fn of(&self, figure: Placed) -> Vec<Interval> {
-        self.all.iter().map(|measure| measure.of(figure)).collect()
+    pub fn of(&self, (points, objects): Placed) -> Vec<Interval> {
+        let all = self.all.iter();
+        all.map(|quantity| quantity.of(points, objects)).collect()
     }
 
     /// For JSON: the measures, each with its bounds for each figure.
     pub fn told<'f>(&self, figures: impl Iterator<Item = Placed<'f>> + Clone) -> Vec<Measured> {
-        let all = self.all.iter().map(|measure| Measured {
-            name: measure.name().to_owned(),
+        let all = self.all.iter().map(|quantity| Measured {
+            name: quantity.name.clone(),
             values: figures
                 .clone()
-                .map(|figure| measure.of(figure))
+                .map(|(points, objects)| quantity.of(points, objects))
                 .map(|value| [Some(value.inf()), Some(value.sup())])
                 .collect(),
         });
@@ -286,19 +175,16 @@ mod tests {
                     [constraints]\ndistances = [[\"a\", \"b\", 3]]\n";
         let problem = Problem::parse_loosely(text, "m.toml");
         let problem = problem.unwrap_or_else(|error| panic!("{error}"));
-        let is_of_points = |text: &str| match Measure::parse(&problem, text) {
-            Ok(Measure::Quantity(_)) => true,
-            Ok(Measure::Number(..)) => false,
-            Err(error) => panic!("{error}"),
-        };
+        let parsed = |text: &str| Quantity::parse(&problem, text).unwrap();
+        let is_of_points = |text: &str| parsed(text).object().is_none();
         assert!(is_of_points("radius a-b") && is_of_points("turn a b c"));
         assert!(!is_of_points("radius a b c"));
-        let radius = Measure::parse(&problem, "radius a b c").unwrap();
+        let radius = parsed("radius a b c");
         let round = |radius: f64| Located::Round {
             center: [point(0.0); 3],
             radius: point(radius),
         };
-        assert_eq!(radius.of((&[], &[round(2.0), round(1.0)])), point(1.0));
+        assert_eq!(radius.of(&[], &[round(2.0), round(1.0)]), point(1.0));
     }
 
     #[test]

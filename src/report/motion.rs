@@ -143,7 +143,7 @@ pub(super) fn end_in_words(end: &WayEnd) -> String {
 pub fn motion_to_csv(motion: &Motion, measures: &Measures) -> String {
     let frames = motion.frames.iter();
     let frames: Vec<_> = frames
-        .map(|frame| ([point(frame.at)], (&frame.points[..], &[][..])))
+        .map(|frame| ([point(frame.at)], (&frame.points[..], &frame.objects[..])))
         .collect();
     frames_to_csv(&motion.problem, &["way".to_owned()], &frames, measures)
 }

@@ -22,8 +22,16 @@ pub fn signs_not_looked_at(problem: &Problem) -> &'static str {
 
 /// How a figure stands to the signs that a problem asks for, as a line of text; empty where it asks for none.
 pub fn signs_of_figure(problem: &Problem, points: &[[Interval; 3]]) -> String {
+    match signs_in_words(problem, points) {
+        Some(words) => format!("signs               {words}\n"),
+        None => String::new(),
+    }
+}
+
+/// The same in words; `None` where it asks for none.
+pub(super) fn signs_in_words(problem: &Problem, points: &[[Interval; 3]]) -> Option<String> {
     if problem.orientations.is_empty() {
-        return String::new();
+        return None;
     }
     let signs = Signs::of(problem);
     let words = match signs.of_figure(points) {
@@ -52,7 +60,7 @@ pub fn signs_of_figure(problem: &Problem, points: &[[Interval; 3]]) -> String {
             }
         }
     };
-    format!("signs               {words}\n")
+    Some(words)
 }
 
 /// Which figures are none though the words of the constraints may hold in them, in a sentence with a space before it; empty where there are

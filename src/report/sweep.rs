@@ -181,8 +181,14 @@ pub fn sweep_in_words(problem: &Problem, index: usize, sweep: &Sweep) -> String 
         ),
         _ => format!("no frame of {name}"),
     };
+    let straight = match sweep.led.len() {
+        0 | 1 => "",
+        _ => {
+            " Between two frames these go straight, and not by the expressions: where that ends is no limit of what is varied."
+        }
+    };
     let end = obstacle(sweep).map_or(String::new(), |edited| {
-        format!(" {}", edit_in_words(problem, edited))
+        format!(" {}{straight}", edit_in_words(problem, edited))
     });
     format!("{}: {frames}.{end}", problem.name)
 }

@@ -284,7 +284,7 @@ fn both_ends(ends: &[PathEnd; 2]) -> String {
         let t = 0.5 * (end.t.0 + end.t.1);
         // No zero with a sign.
         let t = if t.abs() < 5e-7 { 0.0 } else { t };
-        let reason = without_stop(&end.reason);
+        let reason = end.in_words();
         match end.kind {
             // What happens there happens somewhat farther on.
             EndKind::Infinite => format!("followed to t = {t:.6}, {reason}"),

@@ -373,6 +373,29 @@ pub mod freecad {
         )
     }
 
+    /// A sketch is found by what FreeCAD shows for its name, if no other one is called so.
+    #[test]
+    fn sketches_are_found_by_their_labels() {
+        let line = "<Geometry type=\"Part::GeomLineSegment\"><LineSegment StartX=\"0\" StartY=\"0\" EndX=\"4\" EndY=\"1\"/></Geometry>";
+        let labelled = |label: &str| {
+            let label = format!("<Property name=\"Label\"><String value=\"{label}\"/></Property>");
+            label + &sketch("", line, "")
+        };
+        let kind = "Sketcher::SketchObject";
+        let [one, other, same] = ["Big Plate", "Lid", "Lid"].map(labelled);
+        let bytes = archive(&[(kind, "A", &one), (kind, "B", &other), (kind, "C", &same)]);
+        let read = |name: &str| krawl::import::read("f.FCStd", &bytes, Some(name));
+        assert_eq!(
+            read("Big Plate").unwrap().problem,
+            read("A").unwrap().problem
+        );
+        let error = read("Lid").unwrap_err().to_string();
+        assert!(
+            error.contains("A (\"Big Plate\"), B (\"Lid\"), C (\"Lid\")"),
+            "{error}"
+        );
+    }
+
     /// A document with one sketch.
     fn document(constraints: &str, geometry: &str, expressions: &str) -> File {
         let sketch = sketch(constraints, geometry, expressions);

@@ -401,3 +401,28 @@ fn a_circle_that_touches_by_its_numbers_keeps_the_contact() {
     let edited = session.edit(&[Setting::parse(&problem, "radii:c=5").unwrap()]);
     assert_ne!(edited.ending, Ending::Reached);
 }
+
+/// Of a drawing that is singular several figures may be the continuation: every claim about what comes from one of them says so.
+#[test]
+fn a_claim_from_a_singular_drawing_says_so() {
+    let problem = problem(SLIDER);
+    let mut session = Session::open(&problem).unwrap();
+    let wanted = Setting::parse(&problem, "x:S=89").unwrap();
+    let edited = session.edit(&[wanted]);
+    assert_eq!(edited.ending, Ending::Reached);
+    let words = krawl::report::edit_in_words(&problem, &edited);
+    assert!(
+        words.contains("with the first figure one of those to which the singular drawing leads"),
+        "{words}"
+    );
+    let drawing = edited.account.drawing.as_ref().unwrap();
+    assert!(
+        drawing.contains("either continues the drawing"),
+        "{drawing}"
+    );
+    // From a drawing that is not singular nothing of that is said.
+    let regular = self::problem(&SLIDER.replace("[25,0]", "[20,15]"));
+    let mut session = Session::open(&regular).unwrap();
+    let edited = session.edit(&[Setting::parse(&regular, "x:S=89").unwrap()]);
+    assert!(edited.ending == Ending::Reached && edited.account.drawing.is_none());
+}

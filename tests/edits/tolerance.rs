@@ -274,7 +274,7 @@ fn what_is_not_proved_or_makes_no_sense_is_said() {
         (
             of("A-B", "-95", "0").unwrap(),
             "A-D",
-            "a length must be greater than 0",
+            "a length or ratio must be greater than 0",
         ),
         (Vec::new(), "A-D", "no dimension has a tolerance"),
         (of("A-B", "-0.1", "0.1").unwrap(), "x D", "fix points"),

@@ -278,14 +278,15 @@ fn a_geared_linkage_moves_as_its_cranks_do() {
     let [least, most] = all.fold([f64::INFINITY, 0.0], |[low, high]: [f64; 2], x| {
         [low.min(x), high.max(x)]
     });
-    let (code, said) = run(&["motion", file.to_str().unwrap(), "--json", "-"]);
+    let (code, said, _) = krawl(&["motion", file.to_str().unwrap(), "--json", "-"]);
     assert_eq!(code, Some(0), "{said}");
     let result: serde_json::Value = serde_json::from_str(&said).unwrap();
-    let of = |key: &str| result["measures"][0][key].as_f64();
-    let [low, high] = ["least", "greatest"].map(of);
-    let is_near = |told: Option<f64>, wanted: f64| told.is_some_and(|x| (x - wanted).abs() < 1e-6);
+    let is_near = |key: &str, wanted: f64| {
+        let bounds = &result["measured"][0][key]["value"];
+        (0..2).all(|k| (bounds[k].as_f64().unwrap() - wanted).abs() < 1e-6)
+    };
     assert!(
-        is_near(low, least) && is_near(high, most),
+        is_near("least", least) && is_near("greatest", most),
         "{least} {most}: {said}"
     );
 }
@@ -436,10 +437,48 @@ fn numbers_of_objects_are_measured() {
     ]);
     // x² + 1/x² = 5.
     assert!(said.contains("2.1889010593"), "{said}");
-    let (code, said) = run(&["motion", SLIDER, "--free", "turns:O", "--measure", "turn A"]);
+    // All the way round the slide goes from 3 − 1 to 3 + 1, and the pin between crank and rod turns once.
+    let measures = ["--measure", "turn A", "--measure", "travel S"];
+    let motion = [&["motion", SLIDER, "--free", "turns:O"][..], &measures].concat();
+    let (code, said) = run(&motion);
+    assert!(code == Some(0) && said.contains("a full turn"), "{said}");
+    let travel = said
+        .lines()
+        .find(|line| line.trim().starts_with("travel S"));
+    let travel = travel.unwrap_or_else(|| panic!("{said}"));
+    let ends: Vec<f64> = travel
+        .split_whitespace()
+        .skip(2)
+        .map(|x| x.parse().unwrap())
+        .collect();
     assert!(
-        code == Some(2) && said.contains("numbers of objects are measured by"),
+        (ends[1] - 2.0).abs() < 1e-6 && (ends[2] - 4.0).abs() < 1e-6,
         "{said}"
+    );
+    // With the crank's length in its limits the slide's place is the sum of two square roots.
+    let file = tempfile::Builder::new().suffix(".toml").tempfile().unwrap();
+    let text = "dimension = 2\n[points]\nA = [0, 0]\nB = [1, 0]\nC = [1, 2]\n[circles]\nk = { center = \"C\", radius = 1 }\n\
+        [constraints]\nfixed = [\"A\"]\nhorizontal = [[\"A\", \"B\"]]\nvertical = [[\"B\", \"C\"]]\n\
+        distances = [[\"A\", \"B\", 1], [\"B\", \"C\", 2], [\"A\", \"k\", 1]]\n[tolerances]\nA-B = 0.1\n\"distances:A-k\" = 0.05\n";
+    fs::write(file.path(), text).unwrap();
+    let (code, said) = run(&[
+        "tolerance",
+        file.path().to_str().unwrap(),
+        "--measure",
+        "radius k",
+        "--json",
+        "-",
+    ]);
+    assert_eq!(code, Some(0), "{said}");
+    let result: serde_json::Value = serde_json::from_str(said.lines().next().unwrap()).unwrap();
+    let told = &result["measured"][0];
+    let worst = [f64::hypot(0.9, 2.0) - 1.05, f64::hypot(1.1, 2.0) - 0.95];
+    let bounds = |key: &str, k: usize| told[key][k].as_f64().unwrap_or_else(|| panic!("{said}"));
+    let [low, high] = [bounds("least", 0), bounds("greatest", 1)];
+    assert!(low <= worst[0] && high >= worst[1], "{worst:?}: {said}");
+    assert!(
+        low > worst[0] - 3e-3 && high < worst[1] + 3e-3,
+        "{worst:?}: {said}"
     );
     for (measure, words) in [
         ("turn G", "there is no joint that turns about one axis `G`"),

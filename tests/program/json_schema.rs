@@ -276,6 +276,53 @@ fn answers_to_edits_meet_the_schema() {
     assert_eq!(answers[1]["status"], "limit");
 }
 
+/// Figures are gone back to exactly, one by one or by name; what cannot be is said.
+#[test]
+fn figures_of_a_session_can_be_gone_back_to() {
+    for (file, name, values) in [
+        ("docs/examples/plate.toml", "C-D", ["45", "42"]),
+        ("docs/examples/slider-crank.toml", "turns:O", ["45", "60"]),
+        ("problems/mechanisms/four-bar.toml", "B-D", ["5.1", "5.2"]),
+    ] {
+        let [one, other] = values.map(|value| format!("{{\"set\": {{\"{name}\": {value}}}}}"));
+        let lines = [
+            "{}",
+            &one,
+            "{\"keep\": \"one\"}",
+            &other,
+            "{\"undo\": true}",
+            "{\"undo\": true}",
+            "{\"undo\": true}",
+            "{\"back\": \"one\"}",
+            "{\"back\": \"two\"}",
+            "{\"undo\": true, \"keep\": \"two\"}",
+            "{\"undo\": true}",
+        ];
+        let run = Command::new(env!("CARGO_BIN_EXE_krawl"))
+            .args(["edit", file, "--serve"])
+            .write_stdin(lines.join("\n"))
+            .output()
+            .unwrap();
+        let text = String::from_utf8(run.stdout).unwrap();
+        let answers = text.lines().map(|line| serde_json::from_str(line).unwrap());
+        let answers: Vec<Value> = answers.collect();
+        assert_eq!(answers.len(), lines.len(), "{text}");
+        let points = |k: usize| &answers[k]["points"];
+        for (k, like) in [(4, 2), (5, 0), (7, 2), (10, 0)] {
+            assert_eq!(points(k), points(like), "{file}, line {k}");
+        }
+        assert!(points(1) == points(2) && points(3) != points(2), "{file}");
+        let reason = |k: usize| answers[k]["reason"].as_str().unwrap_or_default();
+        assert!(reason(6).contains("nothing to undo"), "{text}");
+        assert!(
+            reason(8).contains("no figure is kept as `two`; kept: one"),
+            "{text}"
+        );
+        assert!(reason(9).contains("in a line of their own"), "{text}");
+        assert_eq!(answers[7]["undo"], 1);
+    }
+}
+
 #[test]
 fn what_is_said_of_the_problem_is_the_same_everywhere() {
     let bar = "problems/mechanisms/four-bar.toml";

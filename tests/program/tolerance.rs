@@ -142,7 +142,7 @@ fn measures_of_a_file_have_names() {
         .skip(1)
         .map(|row| row.split(',').next().unwrap())
         .collect();
-    assert_eq!(names, ["\"to the hole\"", "outer"]);
+    assert_eq!(names, ["\"to the hole\"", "outer", "bore"]);
     // What is none is said with its name.
     fs::write(&file, format!("{plate}[measures]\ngap = \"A-Z\"\n")).unwrap();
     let (code, _, error) = krawl(&["edit", &file, "--set", "width=60"]);

@@ -55,7 +55,7 @@ impl<'a> Unbounded<'a> {
         }
         let vanishing = ends.iter().rev().find(|end| vanishes(end));
         Some(Unbounded {
-            reason: vanishing.map_or(&ends[1].reason, |end| &end.reason),
+            reason: vanishing.unwrap_or(&ends[1]).in_words(),
             both_ways: vanishing.is_none(),
         })
     }
@@ -176,7 +176,7 @@ impl Arguments {
 
     /// The figures, block by block, of a problem that stopped for `reason` when followed as a whole. `None`: its blocks do not come to an end either, and no certificate is asked for.
     /// `unbounded`: its path has two ends. Where a length or radius vanishes at one of them, what is on the path is said unless
-    /// nothing bends, nothing is asked for that a path alone has, and the blocks have all figures.
+    /// nothing is asked for that a path alone has, and the blocks have all figures.
     pub(super) fn instead(
         &self,
         problem: &Problem,
@@ -184,9 +184,7 @@ impl Arguments {
         unbounded: Option<Unbounded>,
     ) -> Option<Found> {
         let vanishes = unbounded.is_some_and(|path| !path.both_ways);
-        let bends = problem.homotopy.bend < problem.distances.len()
-            && !problem.homotopy.bend_coefficient.value().is_zero();
-        if vanishes && (bends || self.wants_path().is_some()) {
+        if vanishes && self.wants_path().is_some() {
             return None;
         }
         let found = self.by_blocks(problem).ok()?;

@@ -13,8 +13,7 @@ use super::output::{self, Beside, number};
 use super::pictures::Pictures;
 use super::results::Results;
 use super::take::Take;
-use super::{CLOSED, input, interrupt};
-use asked::Asked;
+use super::{BAD_INPUT, CLOSED, input, interrupt};
 use clap::ValueEnum;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use krawl::track::{Mode, Options, Space};
@@ -265,9 +264,22 @@ impl Arguments {
 pub fn run(arguments: &Arguments) -> Result<u8, String> {
     arguments.time.begin();
     arguments.check()?;
-    // Whatever is wrong is said before anything runs.
-    let problems = arguments.files.iter().map(|file| arguments.read(file));
-    let problems = problems.collect::<Result<Vec<Asked>, String>>()?;
+    // Whatever is wrong is said before anything runs; of several files one that cannot be read costs only itself.
+    let mut problems = Vec::with_capacity(arguments.files.len());
+    let mut worst = CLOSED;
+    for (k, file) in arguments.files.iter().enumerate() {
+        match arguments.read(file) {
+            Ok(asked) => problems.push((k, asked)),
+            Err(text) if arguments.files.len() > 1 => {
+                output::complain(&text);
+                worst = BAD_INPUT;
+            }
+            Err(text) => return Err(text),
+        }
+    }
+    if problems.is_empty() {
+        return Ok(worst);
+    }
     let (files, named) = (&arguments.files, [arguments.json.as_deref(), None]);
     let results = Results::open(files, named, &arguments.pictures, arguments.quiet)?;
     output::refuse_read(files, arguments.cert.as_deref())?;
@@ -279,10 +291,10 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
         results,
         cert,
         lines: String::new(),
-        worst: CLOSED,
+        worst,
     };
-    for (k, (asked, file)) in problems.iter().zip(&arguments.files).enumerate() {
-        if told.answer(k, asked, file)? {
+    for &(k, ref asked) in &problems {
+        if told.answer(k, asked, &arguments.files[k])? {
             break;
         }
     }

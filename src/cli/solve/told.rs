@@ -38,6 +38,7 @@ pub(super) struct Told<'a> {
 /// The graver of two exit codes.
 pub(super) fn worse(one: u8, other: u8) -> u8 {
     match (one, other) {
+        (BAD_INPUT, _) | (_, BAD_INPUT) => BAD_INPUT,
         (STOPPED, _) | (_, STOPPED) => STOPPED,
         (CLOSED, code) => code,
         (code, _) => code,
@@ -266,6 +267,7 @@ impl Told<'_> {
         let is_tested = tested.is_none_or(Tested::is_decided);
         let is_undecided = is_certified && (!is_tested || signed.undecided > 0);
         self.worst = match (&outcome.status, self.worst) {
+            (_, BAD_INPUT) => BAD_INPUT,
             (_, worst) if first.is_some() && !is_undecided => worst,
             (_, worst) if arguments.first && struck > 0 => worse(worst, LIMIT),
             (_, worst) if turns_at.is_some() => worse(worst, LIMIT),

@@ -3,7 +3,7 @@
 
 use super::formula::{Found, Part, Path, evaluate};
 use super::quantity::Quantity;
-use super::{constraints, degrees, is_sketch, listed, number, objects, property, whole};
+use super::{constraints, degrees, is_sketch, label, listed, number, objects, property, whole};
 use crate::import::drawing::decimal;
 use roxmltree::{Document, Node};
 use std::collections::HashMap;
@@ -167,11 +167,9 @@ impl Numbers {
             if name == own {
                 numbers.own = numbers.objects.len();
             }
-            let label = listed(node, "Label", "String").into_iter().next();
-            let label = label.and_then(|label| label.attribute("value"));
             numbers.objects.push(Object {
                 name: name.to_owned(),
-                label: label.unwrap_or("").to_owned(),
+                label: label(node).unwrap_or("").to_owned(),
                 kind: kind_of,
                 entries: begin..numbers.entries.len(),
             });

@@ -311,6 +311,7 @@ pub fn list(bytes: &[u8], format: Format) -> Result<Vec<Listed>, String> {
     let listed = molecules(&text, format)?
         .into_iter()
         .map(|molecule| Listed {
+            label: None,
             drawn: molecule.atoms.len(),
             constraints: molecule.bonds.map_or(0, |bonds| bonds.len()),
             name: molecule.name,

@@ -8,6 +8,7 @@ use crate::import::{self, Follower};
 use crate::interval::Interval;
 use crate::problem::{Decimal, Problem};
 use crate::report::edit::{edit_in_words, numbers_of};
+use crate::report::supposed::signs_in_words;
 use crate::track::Stop;
 
 keys! {
@@ -55,6 +56,8 @@ keys! {
         /// Of what it is proved.
         account: Account = edited.account.clone(),
     } or nothing {
+        /// How the figure stands to the signs that the problem asks for, in words, proved.
+        signs: Option<String> = signs_in_words(problem, &edited.points),
         /// What came of dragging.
         dragged: Option<Dragged> = edited.dragged.as_ref().map(|dragged| Dragged::new(problem, dragged)),
         /// The values of unknown numbers.

@@ -56,6 +56,9 @@ pub(super) fn page(reader: &Reader, edit: &Edit) -> Result<Page, ShowError> {
                 .to_owned()
         }
     });
+    if let Some(signs) = &edit.signs {
+        page.row("signs asked for", signs.clone());
+    }
     page.row("orientations kept, proved", edit.kept.len());
     page.row("not proved to be kept", edit.lost.len());
     page.row("tubes", edit.tubes);

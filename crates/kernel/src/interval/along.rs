@@ -76,8 +76,13 @@ impl Ring for Along {
 pub trait Quantifiable:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self>
 {
+    /// A constant that is somewhere in here.
+    fn fixed(x: Interval) -> Self;
+
     /// A constant.
-    fn constant(x: f64) -> Self;
+    fn constant(x: f64) -> Self {
+        Self::fixed(super::point(x))
+    }
 
     /// The enclosure of the number.
     fn value(&self) -> Interval;
@@ -96,8 +101,8 @@ pub trait Quantifiable:
 }
 
 impl Quantifiable for Interval {
-    fn constant(x: f64) -> Self {
-        super::point(x)
+    fn fixed(x: Interval) -> Self {
+        x
     }
 
     fn value(&self) -> Interval {
@@ -122,8 +127,8 @@ impl Quantifiable for Interval {
 }
 
 impl Quantifiable for Along {
-    fn constant(x: f64) -> Self {
-        let [value, slope] = [x, 0.0].map(super::point);
+    fn fixed(value: Interval) -> Self {
+        let slope = super::point(0.0);
         Along { value, slope }
     }
 

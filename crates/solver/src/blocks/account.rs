@@ -32,6 +32,10 @@ pub struct Account {
     /// The dimensions that stand still although the file computes them from what is led, or what is led from them, in words.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub held_though_computed: Vec<String>,
+    /// Where the drawing is singular, so that several figures may continue it and the claim is about one of them: what is so about it, and how far
+    /// it was moved off that place.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub drawing: Option<String>,
     /// What is left as it is in the file of another program.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub left_as_is: Vec<String>,
@@ -86,6 +90,11 @@ pub enum Verdict {
         /// By so much at least.
         by: f64,
     },
+    /// Of several figures one at least is proved to miss it.
+    MissedBySome {
+        /// By so much at least.
+        by: f64,
+    },
     /// It may be met or missed.
     Undecided {
         /// At most so far.
@@ -114,13 +123,29 @@ impl Verdict {
     }
 
     /// Of two figures together.
+    pub fn beside(self, other: Self) -> Self {
+        use Verdict::{Missed, MissedBySome};
+        match (self, other) {
+            (Missed { by: a }, Missed { by: b }) => Missed { by: a.min(b) },
+            (
+                Missed { by: a } | MissedBySome { by: a },
+                Missed { by: b } | MissedBySome { by: b },
+            ) => MissedBySome { by: a.max(b) },
+            (Missed { by }, _) | (_, Missed { by }) => MissedBySome { by },
+            _ => self.and(other),
+        }
+    }
+
+    /// Of two equations of one constraint together.
     pub fn and(self, other: Self) -> Self {
-        use Verdict::{Follows, Met, Missed, NotLookedAt, Undecided};
+        use Verdict::{Follows, Met, Missed, MissedBySome, NotLookedAt, Undecided};
         match (self, other) {
             (Follows, that) | (that, Follows) => that,
             (NotLookedAt, that) | (that, NotLookedAt) => that,
             (Missed { by: a }, Missed { by: b }) => Missed { by: a.max(b) },
             (Missed { by }, _) | (_, Missed { by }) => Missed { by },
+            (MissedBySome { by: a }, MissedBySome { by: b }) => MissedBySome { by: a.max(b) },
+            (MissedBySome { by }, _) | (_, MissedBySome { by }) => MissedBySome { by },
             (Met { within: a }, Met { within: b }) => Met { within: a.max(b) },
             (
                 Undecided { at_most: a } | Met { within: a },
@@ -129,9 +154,9 @@ impl Verdict {
         }
     }
 
-    /// Whether it is proved that the figure does not meet the constraint.
+    /// Whether it is proved that a figure does not meet the constraint.
     pub fn is_missed(self) -> bool {
-        matches!(self, Verdict::Missed { .. })
+        matches!(self, Verdict::Missed { .. } | Verdict::MissedBySome { .. })
     }
 }
 
@@ -149,13 +174,27 @@ impl Account {
 
     /// Notes a constraint that was left out. A constraint may have several equations: what is worst of them counts.
     pub fn leave_out(&mut self, name: String, verdict: Verdict) {
+        self.leave_out_by(name, verdict, Verdict::and);
+    }
+
+    /// Notes how another figure stands to a constraint that was left out.
+    pub fn leave_out_beside(&mut self, name: String, verdict: Verdict) {
+        self.leave_out_by(name, verdict, Verdict::beside);
+    }
+
+    fn leave_out_by(
+        &mut self,
+        name: String,
+        verdict: Verdict,
+        together: fn(Verdict, Verdict) -> Verdict,
+    ) {
         let why = match verdict {
             Verdict::Follows => Why::Follows,
             _ => Why::NothingNew,
         };
         match self.left_out.iter_mut().find(|other| other.name == name) {
             Some(other) => {
-                other.verdict = other.verdict.and(verdict);
+                other.verdict = together(other.verdict, verdict);
                 if why == Why::NothingNew {
                     other.why = why;
                 }
@@ -178,7 +217,13 @@ impl Account {
     /// The same claim made of other figures, too: with the worse verdict of each constraint, and all that is held in either.
     pub fn join(&mut self, other: &Account) {
         for one in &other.left_out {
-            self.leave_out(one.name.clone(), one.verdict);
+            // What was used of figures before is met by them.
+            let is_new = !self.left_out.iter().any(|own| own.name == one.name);
+            let verdict = match one.verdict {
+                Verdict::Missed { by } if is_new => Verdict::MissedBySome { by },
+                verdict => verdict,
+            };
+            self.leave_out_beside(one.name.clone(), verdict);
         }
         for added in &other.added {
             add_new(&mut self.added, added.clone());
@@ -190,6 +235,9 @@ impl Account {
         }
         for held in &other.held_though_computed {
             add_new(&mut self.held_though_computed, held.clone());
+        }
+        if self.drawing.is_none() {
+            self.drawing.clone_from(&other.drawing);
         }
         if self.left_as_is.is_empty() {
             self.left_as_is.clone_from(&other.left_as_is);
@@ -212,6 +260,7 @@ impl Account {
             && self.held_though_computed.is_empty()
             && self.added.is_empty()
             && self.left_as_is.is_empty()
+            && self.drawing.is_none()
             && self.meets_all()
     }
 
@@ -291,6 +340,11 @@ impl Account {
                     one.name,
                     rounded_down(by)
                 )),
+                Verdict::MissedBySome { by } => parts.push(format!(
+                    "{} was left out and is missed by at least {} in some of these figures, proved",
+                    one.name,
+                    rounded_down(by)
+                )),
                 Verdict::Undecided { at_most } if at_most.is_finite() => parts.push(format!(
                     "{} was left out, and is missed by at most {}: whether it is met is not decided",
                     one.name,
@@ -344,7 +398,13 @@ impl Account {
             false => format!("with {}", list(&self.held_though_computed)),
         };
         let (held, kept) = (self.held_in_words(), self.kept_in_words());
-        joined([used, added, held, computed, kept], ", ")
+        let drawing = match self.drawing {
+            None => String::new(),
+            Some(_) => {
+                "with the first figure one of those to which the singular drawing leads".to_owned()
+            }
+        };
+        joined([used, added, held, computed, kept, drawing], ", ")
     }
 
     /// All of it as one clause: [`Account::scope`], and what was left out.
@@ -562,5 +622,43 @@ mod tests {
         account.leave_out("a-b".to_owned(), Verdict::Missed { by: 0.5 });
         assert!(account.left_out[0].verdict.is_missed());
         assert!(!account.meets_all());
+    }
+
+    /// What each of several figures misses is said of all of them with the least number, what some miss of some.
+    #[test]
+    fn of_several_figures_no_more_is_said_than_holds_for_all() {
+        let met = Verdict::Met { within: 1e-9 };
+        let [near, far] = [0.1, 0.5].map(|by| Verdict::Missed { by });
+        assert_eq!(near.beside(far), near);
+        assert_eq!(met.beside(far), Verdict::MissedBySome { by: 0.5 });
+        assert_eq!(
+            near.beside(met).beside(far),
+            Verdict::MissedBySome { by: 0.5 }
+        );
+        let mut account = Account::default();
+        account.leave_out_beside("A-B".to_owned(), far);
+        account.leave_out_beside("A-B".to_owned(), near);
+        let words = account.left_out_in_words();
+        assert_eq!(
+            words,
+            "A-B was left out and is missed by at least 0.1, proved"
+        );
+        account.leave_out_beside("A-B".to_owned(), met);
+        let words = account.left_out_in_words();
+        assert!(
+            words.ends_with("by at least 0.1 in some of these figures, proved"),
+            "{words}"
+        );
+        // A constraint that figures before were made with is met by those.
+        let mut used = Account::default();
+        used.join(&Account {
+            left_out: vec![LeftOut {
+                name: "C-D".to_owned(),
+                why: Why::NothingNew,
+                verdict: far,
+            }],
+            ..Account::default()
+        });
+        assert_eq!(used.left_out[0].verdict, Verdict::MissedBySome { by: 0.5 });
     }
 }

@@ -107,7 +107,7 @@ impl Tested {
     fn is_solution(&mut self, figure: Vec<LeftOut>) -> bool {
         let all = figure.iter().map(|one| one.verdict);
         match all.fold(Verdict::Follows, Verdict::and) {
-            Verdict::Missed { by } => {
+            Verdict::Missed { by } | Verdict::MissedBySome { by } => {
                 self.missed += 1;
                 self.by = self.by.min(by);
                 return false;
@@ -249,7 +249,7 @@ impl Surplus {
             None => vec![Verdict::NotLookedAt; self.spare.len()],
         };
         for (spare, verdict) in self.spare.iter().zip(verdicts) {
-            account.leave_out(format!("`{}`", spare.name), verdict);
+            account.leave_out_beside(format!("`{}`", spare.name), verdict);
         }
     }
 

@@ -9,7 +9,7 @@ use crate::blocks::Account;
 use crate::constraint::try_lower_apart;
 use crate::interval::Interval;
 use crate::problem::{Decimal, Problem, Target};
-use crate::system::{Homotopy, Right};
+use crate::system::{Homotopy, Located, Right};
 use crate::track::{Control, Options, StartError};
 use std::rc::Rc;
 use std::slice;
@@ -203,6 +203,11 @@ impl Limited {
     /// That figure, in the coordinates of the problem.
     pub fn figure(&self) -> Vec<[Interval; 3]> {
         self.whole.points()
+    }
+
+    /// Where objects are in that figure.
+    pub fn objects(&self) -> Vec<Located> {
+        self.whole.objects_of(self.whole.figure())
     }
 
     /// A figure in the gauge, in lengths of the problem, in the coordinates of the problem.

@@ -1,7 +1,7 @@
 //! How far each dimension can go alone.
 
 use super::ending::{Edited, Ending, Keep, Limit};
-use super::setting::measure;
+use super::setting::measure_of;
 use super::{Session, Setting, held_though_computed};
 use crate::blocks::Account;
 use crate::constraint::Measure;
@@ -69,7 +69,7 @@ impl Session {
             false => [None, None],
         };
         let way_round = reach[1].as_ref().map(|most| most.bound.sup());
-        let (low, high) = match (measure(problem, index), way_round) {
+        let (low, high) = match (measure_of(problem, index), way_round) {
             // No figure is that long: the other distances between its ends do not reach.
             (_, Some(longest)) => (SMALLEST * value.mid(), 1.0625 * longest.max(value.sup())),
             (Measure::Degrees, _) => (
@@ -125,7 +125,7 @@ impl Session {
         goal: f64,
         control: &mut Control,
     ) -> (End, Vec<[Interval; 3]>, Account) {
-        let rounded = match measure(self.problem(), index) {
+        let rounded = match measure_of(self.problem(), index) {
             // So many digits that it stays below 180, or 90.
             angle @ (Measure::Degrees | Measure::Slope) => {
                 let most = match angle {

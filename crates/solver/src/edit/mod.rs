@@ -69,6 +69,7 @@ pub use open::{Moved, OpenError};
 pub(crate) use round::Round;
 pub use round::WayEnd;
 pub use session::{Decomposition, Session, Standing, TooMany, completed};
+pub(crate) use setting::measure_of;
 pub use setting::{Setting, SettingError};
 pub use sweep::{Frame, Sweep, evenly};
 pub use whole_turn::{Asked, with_turns_of};

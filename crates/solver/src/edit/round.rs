@@ -7,7 +7,7 @@ use super::whole::Whole;
 use crate::interval::{Interval, point};
 use crate::places::Each as _;
 use crate::problem::{Point, Problem};
-use crate::system::Placement;
+use crate::system::{Homotopy, Located, Placement};
 use crate::track::certified::track_from;
 use crate::track::{Control, Options, Outcome, PathEnd, StartError, Status, Stop, StopKind, Trace};
 use std::slice;
@@ -123,6 +123,21 @@ impl Round {
         self.ends.is_empty()
     }
 
+    /// The equations that it was followed by.
+    pub fn homotopy(&self) -> &Homotopy {
+        self.whole.homotopy()
+    }
+
+    /// An unknown of the figure that it sets out from, in the homotopy's own unit.
+    pub fn unknown(&self, i: usize) -> Interval {
+        self.whole.figure().enclosure(i)
+    }
+
+    /// Where objects are in that figure.
+    pub fn objects(&self) -> Vec<Located> {
+        self.homotopy().locate(&self.figure(), &|i| self.unknown(i))
+    }
+
     /// The figure that it sets out from, in the coordinates of the problem, as all others of the way.
     pub fn figure(&self) -> Vec<[Interval; 3]> {
         let homotopy = self.whole.homotopy();
@@ -179,7 +194,7 @@ impl Whole {
     fn lead_on<T>(
         &mut self,
         setting: &Setting,
-        follow: impl FnOnce(&crate::system::Homotopy, &crate::track::arc::Figure) -> T,
+        follow: impl FnOnce(&Homotopy, &crate::track::arc::Figure) -> T,
     ) -> Result<T, String> {
         let from = self.problem().distances[setting.index].target.clone();
         let homotopy = self.homotopy_mut();

@@ -24,6 +24,14 @@ pub struct Session {
     way: Box<dyn Way>,
 }
 
+impl Clone for Session {
+    fn clone(&self) -> Self {
+        Session {
+            way: self.way.copy(),
+        }
+    }
+}
+
 impl Session {
     /// Takes the sketch of a checked problem for the figure, after leading it to the dimensions if it
     /// does not meet them exactly: along a path that is proved as edits are, with all lengths in proportion to t.

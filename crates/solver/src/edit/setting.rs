@@ -121,7 +121,7 @@ impl Setting {
     pub fn new(problem: &Problem, index: usize, value: Decimal) -> Result<Self, SettingError> {
         let whole = |degrees: i32| Rational::from_integer(degrees.into());
         let (is_positive, number) = (value.is_positive(), value.value());
-        let wrong = match measure(problem, index) {
+        let wrong = match measure_of(problem, index) {
             Measure::Length if !is_positive => SettingError::NotPositive,
             Measure::Ratio if !is_positive => SettingError::NotARatio,
             Measure::Degrees if !is_positive || *number >= whole(180) => SettingError::NotAnAngle,
@@ -241,7 +241,7 @@ impl Setting {
             let [from, to] = [from, to].each(|x| of(x.value().clone()).enclose());
             linear(from, to)
         };
-        match measure(problem, self.index) {
+        match measure_of(problem, self.index) {
             Measure::Degrees => degrees_of_cosine(led(Real::cosine_of_degrees)),
             Measure::Slope => point(90.0) - degrees_of_cosine(led(Real::sine_of_degrees)),
             Measure::Turn => turned(from.value(), to.value(), t),
@@ -303,7 +303,7 @@ impl Setting {
             {
                 return Err(SettingError::Twice(problem.dimension_name(setting.index)));
             }
-            if measure(problem, setting.index) == Measure::Turn
+            if measure_of(problem, setting.index) == Measure::Turn
                 && let (Target::Length(now), Target::Length(then)) =
                     (Setting::now(problem, setting.index).target, &setting.target)
                 && (then.value() - now.value()).abs() > Rational::from_integer(MOST_TURN.into())
@@ -354,7 +354,7 @@ fn turned(from: &Rational, to: &Rational, t: Interval) -> Interval {
 }
 
 /// What the number of a dimension is.
-pub(super) fn measure(problem: &Problem, index: usize) -> Measure {
+pub(crate) fn measure_of(problem: &Problem, index: usize) -> Measure {
     match index.checked_sub(problem.distances.len()) {
         None => Measure::Length,
         Some(c) => constraint::measure_of(problem, c),

@@ -15,6 +15,9 @@ use crate::track::{Control, Stop};
 
 /// A figure that meets its dimensions, and the way in which it is followed.
 pub(super) trait Way: std::fmt::Debug + Send {
+    /// The same once more.
+    fn copy(&self) -> Box<dyn Way>;
+
     /// See [`super::Session::problem`].
     fn problem(&self) -> &Problem;
 

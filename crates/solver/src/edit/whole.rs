@@ -244,7 +244,27 @@ pub(super) fn narrower(homotopy: &Homotopy, options: &Options, radius: f64) -> B
     arcs(homotopy.clone(), &options)
 }
 
+impl Clone for Whole {
+    fn clone(&self) -> Self {
+        Whole {
+            problem: self.problem.clone(),
+            options: self.options.clone(),
+            arcs: arcs(self.arcs.homotopy().clone(), &self.options),
+            stand: self.stand.clone(),
+            figure: self.figure.clone(),
+            lengths: self.lengths.clone(),
+            moved: self.moved,
+            record: self.record.clone(),
+            outlines: self.outlines.clone(),
+        }
+    }
+}
+
 impl Way for Whole {
+    fn copy(&self) -> Box<dyn Way> {
+        Box::new(self.clone())
+    }
+
     fn problem(&self) -> &Problem {
         &self.problem
     }

@@ -1,7 +1,7 @@
 //! Angles in the plane that are set beyond 0 or 180 degrees: followed as turns.
 
 use super::computed::{check_given, sources};
-use super::setting::{Setting, SettingError, measure, number, read};
+use super::setting::{Setting, SettingError, measure_of, number, read};
 use super::write::direction;
 use crate::constraint::{Arguments, LineName, Measure, is_opposite_nearer, order_of_kind};
 use crate::interval::Real;
@@ -304,7 +304,7 @@ fn is_beyond(degrees: &Decimal) -> bool {
 /// sense in the drawing.
 fn as_turn(problem: &Problem, index: usize) -> Option<Constraint> {
     let angle = &problem.constraints[index.checked_sub(problem.distances.len())?];
-    let is_angle = angle.kind == "angles" && measure(problem, index) == Measure::Degrees;
+    let is_angle = angle.kind == "angles" && measure_of(problem, index) == Measure::Degrees;
     if problem.dimension != 2 || !is_angle {
         return None;
     }

@@ -4,7 +4,7 @@ use crate::edit::Round;
 use crate::interval::along::Along;
 use crate::interval::{Interval, hull, point};
 use crate::places::{Each as _, array};
-use crate::system::{Placement, Quantity, WHOLE_TURN};
+use crate::system::{Placement, Quantity, Seen, WHOLE_TURN};
 use crate::track::{Control, Trace};
 
 /// What is measured along a path.
@@ -12,7 +12,7 @@ use crate::track::{Control, Trace};
 pub struct Measured {
     /// As it was asked for.
     pub name: String,
-    /// What it is measured in: `degrees`, `length` or `area`.
+    /// What it is measured in: `degrees`, `length`, `area` or `number`.
     pub unit: &'static str,
     /// What it is at the figure that the path sets out from.
     pub first: Interval,
@@ -111,34 +111,32 @@ impl Look<'_, '_> {
 
     fn key(&self, part: &Part, between: (f64, f64), near: f64) -> Interval {
         let here = self.trace(part.is_behind).part(part.tube, between);
-        let around = |p: usize| self.placed(here.around(p));
-        let middle = |p: usize| match self.placement {
-            Some(placement) => placement.to_problem(&here.middle(p)),
-            None => here.middle(p),
-        };
-        match between.0 < between.1 {
-            true => self
-                .quantity
-                .key_along((around, here.along()), middle, near),
-            false => self.quantity.key(middle, near),
+        let homotopy = self.round.homotopy();
+        let middle = self.placed(homotopy.seen(|i| here.entry_in_middle(i)), |place, at| {
+            place.to_problem(&at)
+        });
+        if between.0 >= between.1 {
+            return self.quantity.key(&middle, near);
         }
+        let around = self.placed(homotopy.seen(|i| here.entry_around(i)), along);
+        self.quantity
+            .key_along((&around, here.along()), &middle, near)
     }
 
-    /// A point of the trace where the quantity wants it: in the coordinates of the problem if it depends on where the figure stands.
-    fn placed(&self, at: [Along; 3]) -> [Along; 3] {
-        let Some(placement) = self.placement else {
-            return at;
+    /// What is seen in the trace as the quantity wants it: in the coordinates of the problem if it depends on where the figure stands.
+    fn placed<T: Copy, N>(
+        &self,
+        seen: Seen<impl Fn(usize) -> [T; 3], N>,
+        moved: impl Fn(&Placement, [T; 3]) -> [T; 3],
+    ) -> Seen<impl Fn(usize) -> [T; 3], N> {
+        let point = move |p: usize| match &self.placement {
+            Some(placement) => moved(placement, (seen.point)(p)),
+            None => (seen.point)(p),
         };
-        let turn = Placement {
-            origin: [point(0.0); 3],
-            ..placement
-        };
-        let values = placement.to_problem(&at.each(|x| x.value));
-        let slopes = turn.to_problem(&at.each(|x| x.slope));
-        array(|k| Along {
-            value: values[k],
-            slope: slopes[k],
-        })
+        Seen {
+            point,
+            numbers: seen.numbers,
+        }
     }
 
     /// Cuts a part until it tells how the quantity goes on, which is `near` where it begins. What it is where it ends.
@@ -239,9 +237,23 @@ impl Look<'_, '_> {
     }
 }
 
+/// A place along a curve in the coordinates of the problem.
+fn along(placement: &Placement, at: [Along; 3]) -> [Along; 3] {
+    let turn = Placement {
+        origin: [point(0.0); 3],
+        ..*placement
+    };
+    let values = placement.to_problem(&at.each(|x| x.value));
+    let slopes = turn.to_problem(&at.each(|x| x.slope));
+    array(|k| Along {
+        value: values[k],
+        slope: slopes[k],
+    })
+}
+
 /// Between which bounds a quantity stays along a path.
 pub(super) fn measure(round: &Round, quantity: Quantity, control: &Control) -> Measured {
-    let first = round.figure();
+    let first = quantity.of(&round.figure(), &round.objects());
     let look = Look {
         round,
         quantity: &quantity,
@@ -249,7 +261,9 @@ pub(super) fn measure(round: &Round, quantity: Quantity, control: &Control) -> M
         control,
     };
     let found = || {
-        let start = quantity.key(|p| first[p], 0.0).mid();
+        let seen = round.homotopy().seen(|i| round.unknown(i));
+        let start = look.placed(seen, |place, at| place.to_problem(&at));
+        let start = quantity.key(&start, 0.0).mid();
         let mut parts = Vec::new();
         let end = look.way(false, start, &mut parts)?;
         if round.trace.back().is_some() {
@@ -266,7 +280,7 @@ pub(super) fn measure(round: &Round, quantity: Quantity, control: &Control) -> M
     };
     Measured {
         bounds: found().unwrap_or(Bounds::Untold),
-        first: quantity.of(&first),
+        first,
         unit: quantity.unit(),
         name: quantity.name,
     }

@@ -50,7 +50,7 @@ use crate::interval::vector::distance;
 use crate::order::InOrder;
 use crate::order::each_once;
 use crate::problem::{Decimal, Distance, Item, Point, Problem, Target, counted, list};
-use crate::system::Quantity;
+use crate::system::{Located, Quantity};
 use crate::track::{Control, Options, Status, StopKind};
 use std::collections::{BTreeMap, HashSet};
 
@@ -93,6 +93,8 @@ pub struct Frame {
     pub at: f64,
     /// A box around its points, in the coordinates of the problem.
     pub points: Vec<[Interval; 3]>,
+    /// Where objects are in it.
+    pub objects: Vec<Located>,
 }
 
 /// So many lengths are tried, one after the other, until the path along which one of them changes closes: one that comes to be 0
@@ -178,8 +180,12 @@ impl Motion {
             let others = lengths.iter().filter(|ends| !known.contains(ends));
             quantities.extend(others.map(|&ends| Quantity::length(&problem, ends)));
         }
+        let frames = frames(&round);
         let mut measured = Vec::new();
         for quantity in quantities {
+            if is_by_default && !changes(&frames, &quantity) {
+                continue;
+            }
             let found = bounds::measure(&round, quantity, control);
             // Of all lengths those that change are meant, and points in one place count as one.
             if !is_by_default
@@ -195,7 +201,7 @@ impl Motion {
             driver,
             account,
             freed,
-            frames: frames(&round),
+            frames,
             standing: round.standing().to_vec(),
             moved: corrected + round.moved().distance,
             figure: round.figure(),
@@ -281,13 +287,18 @@ pub(crate) fn in_place(problem: &Problem, index: usize) -> Option<Quantity> {
     };
     let names = constraint.items.iter().map(|item| match *item {
         Item::Point(p) => Some(problem.points[p].name.as_str()),
-        _ => None,
+        Item::Object(o) => Some(problem.objects[o].name.as_str()),
+        Item::Axis(_) => None,
     });
     let names: Vec<&str> = names.collect::<Option<_>>()?;
     let word = match constraint.kind.as_str() {
         "angles" => "angle",
         "turns" => "turn",
         "torsions" => "torsion",
+        "travels" => "travel",
+        "radii" => "radius",
+        "values" => "value",
+        axis @ ("x" | "y" | "z") => axis,
         _ => return None,
     };
     Quantity::parse(problem, &format!("{word} {}", names.join(" "))).ok()
@@ -472,23 +483,44 @@ const RIGID: &str =
 /// That there is no motion, and why.
 fn rigid(problem: &Problem, fault: Option<String>) -> String {
     match fault {
-        _ if problem.check().is_ok() => RIGID.to_owned(),
+        _ if problem.check().is_ok() && problem.is_distances_only() => RIGID.to_owned(),
+        _ if problem.check().is_ok() => {
+            "with the dimensions that stand still there are as many equations as unknowns, and a motion is followed with one less: set one more free with \
+             `--free NAME`; a loop that moves for all that, as Bennett's, is followed by `krawl limits` and `krawl sweep`, which leave out what follows \
+             from the rest"
+                .to_owned()
+        }
         Some(fault) => format!(
             "a motion is of a figure with one degree of freedom, all of whose constraints are needed. It could not be set in motion as it is drawn: \
-             if it is at a dead centre draw it a little bent, and if it is far from its dimensions nearer to them. With one more length given: {fault}"
+             where constraints of joints follow from each other, as in loops of hinges, see `krawl limits` and `krawl sweep`, which leave these out; if it is \
+             at a dead centre draw it a little bent, and if it is far from its dimensions nearer to them. With one more length given: {fault}"
         ),
         None => "as it is drawn no length begins to change: if it is at a dead centre, with points on one line, draw it a little bent".to_owned(),
     }
 }
 
 /// Figures at equal lengths of the path.
+/// Whether a quantity is not the same in all frames.
+fn changes(frames: &[Frame], quantity: &Quantity) -> bool {
+    let mut values = frames.iter().map(|of| quantity.of(&of.points, &of.objects));
+    let first = values.next().unwrap_or(Interval::ENTIRE);
+    let common = values.try_fold(first, |common, value| {
+        let both = common.intersection(value);
+        (!both.is_empty()).then_some(both)
+    });
+    common.is_none()
+}
+
 fn frames(round: &Round) -> Vec<Frame> {
     let (start, end) = (round.trace.start(), round.trace.length());
     let place = |k: usize| start + (end - start) * (k as f64 / (FRAMES - 1) as f64);
     let frames = (0..FRAMES).filter_map(|k| {
-        let points = round.in_problem(&round.trace.box_at(place(k))?);
+        let here = round.trace.place_at(place(k))?;
+        let points = round.in_problem(&here.points());
+        let unknown = |i: usize| here.entry_in_middle(i);
         Some(Frame {
             at: place(k),
+            objects: round.homotopy().locate(&points, &unknown),
             points,
         })
     });

@@ -106,10 +106,11 @@ pub(super) fn account(
 
 /// Of a length that is off its target by so much at the least, and by so much at the most.
 fn verdict((low, high): (Interval, Interval), epsilon: f64) -> Verdict {
-    // A figure reaches into each.
-    let worst = [low, high].map(|off| Verdict::of(off, epsilon));
-    match worst {
-        [Verdict::Missed { .. }, _] | [_, Verdict::Missed { .. }] => worst[0].and(worst[1]),
-        _ => Verdict::of(hull(low.inf(), high.sup()), epsilon),
+    // A figure reaches into each, and the others are between.
+    let all = Verdict::of(hull(low.inf(), high.sup()), epsilon);
+    let missed = [low, high].map(|off| Verdict::of(off, epsilon));
+    match missed.into_iter().find(|one| one.is_missed()) {
+        Some(one) => one.beside(all),
+        None => all,
     }
 }

@@ -64,11 +64,8 @@ impl Measure<'_> {
     /// The key over all figures of a family; of an angle at points that may come together, everything.
     pub fn over(&self, limited: &Limited, family: &Family) -> Interval {
         let homotopy = limited.homotopy();
-        let unit = point(homotopy.unit);
-        let place = |at: &dyn Fn(usize) -> Interval| {
-            let at = |p: usize| homotopy.place(p, |i| at(i) * unit);
-            self.quantity.key(at, self.near)
-        };
+        let place =
+            |at: &dyn Fn(usize) -> Interval| self.quantity.key(&homotopy.seen(at), self.near);
         let middle = place(&|i| point(family.middle.centre[i]));
         let by_slopes = middle + family.change(&self.slopes(limited, family));
         let directly = place(&|i| family.enclosure(i));
@@ -143,10 +140,8 @@ impl Proved {
             left -= 1;
             if let Some((figure, _)) = limited.figure_with(&corner, &top.family) {
                 let homotopy = limited.homotopy();
-                let unit = point(homotopy.unit);
-                let key = measure
-                    .quantity
-                    .key(|p| homotopy.place(p, |i| figure[i] * unit), measure.near);
+                let seen = homotopy.seen(|i| figure[i]);
+                let key = measure.quantity.key(&seen, measure.near);
                 if lower(key) > best.inner {
                     best.inner = lower(key);
                     best.corner = corner.iter().map(|[low, _]| low.decimal.clone()).collect();

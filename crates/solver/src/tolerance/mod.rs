@@ -37,17 +37,18 @@ mod set;
 pub use set::{OfSet, Set, study_all};
 
 use crate::blocks::Account;
-use crate::edit::{Ending, Limited, Limits, Part, Setting, Value};
+use crate::constraint::Measure as Kind;
+use crate::edit::{Ending, Limited, Limits, Part, Setting, Value, measure_of};
 use crate::interval::along::Along;
 use crate::interval::{Interval, certain_digits, enclose_rational, hull, point};
 use crate::motion::{in_place, lengths};
-use crate::order::InOrder;
-use crate::places::array;
+use crate::order::{InOrder, add_new};
 use crate::problem::{Decimal, Problem, Target};
 use crate::system::{Homotopy, Quantity, WHOLE_TURN};
 use crate::track::{Control, Options};
 use extreme::{Extreme, Measure};
 use parts::{Failure, Proved};
+use std::cell::RefCell;
 use std::rc::Rc;
 
 /// What tolerances do to a figure.
@@ -248,7 +249,7 @@ fn studied(
     quantities: &[Quantity],
     control: &Control,
 ) -> Result<Study, String> {
-    let figure = proved.limited.figure();
+    let (figure, objects) = (proved.limited.figure(), proved.limited.objects());
     let dimensions = problem.dimensions();
     let dimensions = dimensions.filter_map(|index| Some((index, in_place(problem, index)?)));
     let dimensions: Vec<(usize, Quantity)> = dimensions.collect();
@@ -256,7 +257,7 @@ fn studied(
     let measured = quantities
         .iter()
         .map(|quantity| {
-            let nominal = quantity.of(&figure);
+            let nominal = quantity.of(&figure, &objects);
             let mut each = dimensions.iter();
             let itself = each.find(|(_, other)| other.is_same_measure(quantity));
             let own = itself.and_then(|&(index, _)| {
@@ -323,11 +324,8 @@ pub fn limits(
     Ok(out)
 }
 
-/// Kinds of constraints, beside distances between points, of which the right-hand sides grow with the value or fall: what coordinates and radii
-/// are, and the cosine of an angle.
-const MONOTONE: [&str; 8] = ["x", "y", "z", "dx", "dy", "dz", "radii", "angles"];
-
-/// Whether limits make sense.
+/// Whether limits make sense: the right-hand side of one equation grows with the value, or falls. It is a length, coordinate, number or ratio, its square, or
+/// the cosine or sine of an angle.
 fn check(problem: &Problem, limits: &Limits) -> Result<(), String> {
     let name = problem.dimension_name(limits.index);
     let [low, high] = &limits.values;
@@ -336,28 +334,25 @@ fn check(problem: &Problem, limits: &Limits) -> Result<(), String> {
             "{name}: its least value, {low}, is more than its greatest, {high}"
         ));
     }
-    match limits.index.checked_sub(problem.distances.len()) {
-        None if !low.is_positive() => Err(format!(
-            "{name}: a length must be greater than 0, and its limits go down to {low}"
-        )),
-        None => Ok(()),
-        Some(at) => {
-            let kind = problem.constraints[at].kind.as_str();
-            match MONOTONE.contains(&kind) {
-                true if kind == "angles" && !(low.is_positive() && high.to_f64() < 180.0) => {
-                    Err(format!(
-                        "{name}: an angle is between 0 and 180 degrees, and its limits are {low} and {high}"
-                    ))
-                }
-                true if kind == "radii" && !low.is_positive() => Err(format!(
-                    "{name}: a radius must be greater than 0, and its limits go down to {low}"
-                )),
-                true => Ok(()),
-                false => Err(format!(
-                    "{name}: limits are taken of distances between points, of coordinates, radii and angles, not of `{kind}` yet: give it none"
-                )),
-            }
+    let most = match measure_of(problem, limits.index) {
+        Kind::Signed => return Ok(()),
+        Kind::Length | Kind::Ratio => f64::INFINITY,
+        Kind::Degrees => 180.0,
+        Kind::Slope => 90.0,
+        Kind::Turn | Kind::Nothing => {
+            return Err(format!(
+                "{name}: limits are not taken of turns and torsions yet, of which cosine and sine go together: give it none, or say `angles`"
+            ));
         }
+    };
+    match low.is_positive() && high.to_f64() < most {
+        true => Ok(()),
+        false if most.is_finite() => Err(format!(
+            "{name}: it is between 0 and {most} degrees, and its limits are {low} and {high}"
+        )),
+        false => Err(format!(
+            "{name}: a length or ratio must be greater than 0, and its limits go down to {low}"
+        )),
     }
 }
 
@@ -417,9 +412,7 @@ fn measure(
 ) -> Result<Measured, String> {
     let homotopy = proved.limited.homotopy();
     let given = |i: usize| proved.limited.nominal(i);
-    let unit = point(homotopy.unit);
-    let place = |p: usize| homotopy.place(p, |i| given(i) * unit);
-    let middle = quantity.key(place, 0.0);
+    let middle = quantity.key(&homotopy.seen(given), 0.0);
     let near = middle.mid();
     // Over all of the figure's box: what is flat but for a rounding turns back in it.
     let about = slopes(homotopy, quantity, given, near);
@@ -523,31 +516,21 @@ fn slopes(
     there: impl Fn(usize) -> Interval,
     near: f64,
 ) -> Vec<(usize, Interval)> {
-    let unit = point(homotopy.unit);
-    let mut out: Vec<(usize, Interval)> = Vec::new();
-    for &q in quantity.points() {
-        for axis in 0..homotopy.dimension {
-            let Some(i) = homotopy.coordinate(q, axis) else {
-                continue;
-            };
-            if out.iter().any(|(other, _)| *other == i) {
-                continue;
-            }
-            // An unknown may be the coordinate of several points.
-            let along = |p: usize| -> [Along; 3] {
-                let at = homotopy.place(p, |i| there(i) * unit);
-                array(|k| {
-                    let moves = homotopy.coordinate(p, k) == Some(i);
-                    Along {
-                        value: at[k],
-                        slope: if moves { unit } else { point(0.0) },
-                    }
-                })
-            };
-            out.push((i, quantity.slope_of_key(along, near)));
-        }
-    }
-    out
+    let used = RefCell::new(Vec::new());
+    let noting = |i: usize| {
+        add_new(&mut used.borrow_mut(), i);
+        there(i)
+    };
+    quantity.key(&homotopy.seen(noting), near);
+    let used = used.into_inner().into_iter();
+    let slope = |i: usize| {
+        let along = |k: usize| Along {
+            value: there(k),
+            slope: point(f64::from(u8::from(k == i))),
+        };
+        (i, quantity.slope_of_key(&homotopy.seen(along), near))
+    };
+    used.map(slope).collect()
 }
 
 /// By how much a quantity grows, about, where its key does.

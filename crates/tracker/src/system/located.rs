@@ -2,6 +2,7 @@
 
 use super::Homotopy;
 use crate::constraint::{Entry, Form, Posed};
+use crate::interval::along::Quantifiable;
 use crate::interval::angle::direction;
 use crate::interval::vector::{cross, dot, minus, out_of};
 use crate::interval::{Interval, enclose, hull, point};
@@ -57,6 +58,27 @@ pub enum Located {
     Number(Interval),
 }
 
+/// What numbers an object has, in the unit of the problem: enclosures, alone or along a curve.
+#[derive(Debug, Clone, Copy)]
+pub struct Numbers<T> {
+    /// The radius of a circle, sphere or arc, or the value of an unknown number.
+    pub number: Option<T>,
+    /// Of a joint that turns about one axis a vector in the direction of its turn.
+    pub turn: Option<[T; 2]>,
+    /// How far a joint is drawn out.
+    pub travel: Option<T>,
+}
+
+impl<T> Numbers<T> {
+    fn one(number: Option<T>) -> Self {
+        Numbers {
+            number,
+            turn: None,
+            travel: None,
+        }
+    }
+}
+
 impl Located {
     /// The radius of a circle, sphere or arc, or the value of an unknown number.
     pub fn number(&self) -> Option<Interval> {
@@ -109,6 +131,33 @@ impl Homotopy {
         let told = (&self.tail.objects[..], &self.tail.poses[..]);
         let shapes: Vec<&Shape> = self.shapes.iter().collect();
         locate(&shapes, told, (self.dimension, self.unit), points, &value)
+    }
+
+    /// What numbers an object has where its unknowns are these, in the homotopy's own unit.
+    pub fn numbers<T: Quantifiable>(
+        &self,
+        object: usize,
+        unknown: &dyn Fn(usize) -> T,
+    ) -> Numbers<T> {
+        let value = |entry: Entry| self.entry(entry).map_or(T::constant(0.0), unknown);
+        let (unit, own) = (T::constant(self.unit), &self.tail.objects[object]);
+        match &self.shapes[object] {
+            Shape::Round { .. } | Shape::Arc { .. } => Numbers::one(Some(value(own[0]) * unit)),
+            Shape::Number { .. } => Numbers::one(Some(value(own[0]))),
+            Shape::Joint {
+                sort,
+                bodies,
+                frames,
+            } => {
+                let posed = |&body: &usize| self.tail.poses.iter().find(|of| of.body == body);
+                let [Some(first), Some(second)] = [posed(&bodies[0]), posed(&bodies[1])] else {
+                    return Numbers::one(None);
+                };
+                let bodies = [first, second].map(|posed| pose_of(posed, unit, &value));
+                joint_of(self.dimension, *sort, bodies.each_ref(), frames)
+            }
+            _ => Numbers::one(None),
+        }
     }
 }
 
@@ -164,7 +213,11 @@ pub fn locate(
                 frames,
             } => {
                 let bodies = bodies.map(|body| &poses[&body]);
-                joint_of(dimension, *sort, bodies, frames)
+                let of = joint_of(dimension, *sort, bodies, frames);
+                Located::Joint {
+                    turn: of.turn.map(|[x, y]| direction(x, y)),
+                    travel: of.travel,
+                }
             }
             Shape::Number { .. } => Located::Number(value(own[0])),
         })
@@ -172,27 +225,28 @@ pub fn locate(
 }
 
 /// The origin of a body with joints and its axes. `value`: of an unknown.
-fn pose_of(posed: &Posed, unit: Interval, value: &dyn Fn(Entry) -> Interval) -> [[Interval; 3]; 4] {
+fn pose_of<T: Quantifiable>(posed: &Posed, unit: T, value: &dyn Fn(Entry) -> T) -> [[T; 3]; 4] {
     let form = |form: &Form| match *form {
-        Form::One => point(1.0),
+        Form::One => T::constant(1.0),
         Form::Difference(a, b) => value(a) - value(b),
     };
     let at = match posed.origin {
         Ok(entries) => entries.each(|entry| value(entry) * unit),
-        Err(at) => at,
+        Err(at) => at.each(T::fixed),
     };
-    let along: Vec<[Interval; 3]> = posed
+    let along: Vec<[T; 3]> = posed
         .along
         .iter()
         .map(|forms| forms.each_ref().each(form))
         .collect();
-    let (zero, one) = (point(0.0), point(1.0));
+    let [zero, one] = [0.0, 1.0].map(T::constant);
     let basis = match along[..] {
         [] => [[one, zero, zero], [zero, one, zero], [zero, zero, one]],
         [e] => [e, [-e[1], e[0], zero], [zero, zero, one]],
         [e, f, ..] => [e, f, cross(e, f)],
     };
-    let [x, y, z] = posed.axes.each_ref().map(|axis| out_of(&basis, axis));
+    let axes = posed.axes.each_ref();
+    let [x, y, z] = axes.map(|axis| out_of(&basis, &axis.each(T::fixed)));
     [at, x, y, z]
 }
 
@@ -204,27 +258,32 @@ fn axes_of(pose: &Pose) -> [[Interval; 3]; 3] {
 }
 
 /// What a joint measures, by the poses of its bodies.
-fn joint_of(
+fn joint_of<T: Quantifiable>(
     dimension: usize,
     sort: JointSort,
-    bodies: [&[[Interval; 3]; 4]; 2],
+    bodies: [&[[T; 3]; 4]; 2],
     frames: &[Pose; 2],
-) -> Located {
+) -> Numbers<T> {
     let [first, second] = [0, 1].map(|side| {
         let (&[at, x, y, z], frame) = (bodies[side], &frames[side]);
-        let from = out_of(&[x, y, z], &frame.at.each_ref().each(enclose));
-        let origin: [Interval; 3] = array(|k| at[k] + from[k]);
+        let from = out_of(
+            &[x, y, z],
+            &frame.at.each_ref().each(|x| T::fixed(enclose(x))),
+        );
+        let origin: [T; 3] = array(|k| at[k] + from[k]);
         let axes = axes_of(frame);
-        (origin, axes.map(|axis| out_of(&[x, y, z], &axis)))
+        (
+            origin,
+            axes.map(|axis| out_of(&[x, y, z], &axis.each(T::fixed))),
+        )
     });
     let [x, y, z] = first.1;
     let other = second.1[0];
     let along = if dimension == 2 { x } else { z };
-    let turn = || direction(dot(x, other), dot(y, other));
-    let travel = || dot(minus(second.0, first.0), along);
-    Located::Joint {
-        turn: sort.turns().then(turn),
-        travel: sort.travels().then(travel),
+    Numbers {
+        number: None,
+        turn: sort.turns().then(|| [dot(x, other), dot(y, other)]),
+        travel: sort.travels().then(|| dot(minus(second.0, first.0), along)),
     }
 }
 

@@ -1,11 +1,14 @@
 //! What can be measured of a figure: lengths, angles, coordinates and areas that no constraint has to give.
 
+use crate::equations::Ring;
 use crate::interval::along::{Along, Quantifiable};
 use crate::interval::angle::direction;
 use crate::interval::vector::{cross, dot, minus};
 use crate::interval::{Interval, hull, point};
 use crate::places::Each as _;
-use crate::problem::Problem;
+use crate::problem::{Problem, Shape};
+use crate::system::{Homotopy, Located, Numbers};
+use std::rc::Rc;
 
 /// Something that is measured of figures of a problem.
 #[derive(Debug, Clone, PartialEq)]
@@ -16,6 +19,75 @@ pub struct Quantity {
     points: Vec<usize>,
 }
 
+/// Where things are: a place for each point, and numbers for each object.
+pub struct Seen<P, N> {
+    /// Where a point is.
+    pub point: P,
+    /// What numbers an object has.
+    pub numbers: N,
+}
+
+impl Homotopy {
+    /// Where things are, in the unit of the problem, where the unknowns are these, in the homotopy's own.
+    pub fn seen<T: Quantifiable + Ring>(
+        &self,
+        unknown: impl Fn(usize) -> T,
+    ) -> Seen<impl Fn(usize) -> [T; 3], impl Fn(usize) -> Numbers<T>> {
+        let unit = T::constant(self.unit);
+        let unknown = Rc::new(unknown);
+        let of_numbers = unknown.clone();
+        Seen {
+            point: move |p: usize| self.place(p, |i| unknown(i) * unit),
+            numbers: move |object: usize| self.numbers(object, &*of_numbers),
+        }
+    }
+}
+
+/// Which number of an object.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Part {
+    /// By how many degrees a joint is turned.
+    Turn,
+    /// How far a joint is drawn out.
+    Travel,
+    /// The radius of a circle, sphere or arc.
+    Radius,
+    /// The value of an unknown number.
+    Value,
+}
+
+impl Part {
+    /// The part that a word names, and what has it.
+    fn named(word: &str) -> Option<(Part, &'static str)> {
+        Some(match word {
+            "turn" => (Part::Turn, "joint that turns about one axis"),
+            "travel" => (Part::Travel, "joint that travels along its axis"),
+            "radius" => (Part::Radius, "circle, sphere or arc"),
+            "value" => (Part::Value, "unknown"),
+            _ => return None,
+        })
+    }
+
+    fn is_of(self, shape: &Shape) -> bool {
+        match (self, shape) {
+            (Part::Turn, Shape::Joint { sort, .. }) => sort.turns(),
+            (Part::Travel, Shape::Joint { sort, .. }) => sort.travels(),
+            (Part::Radius, Shape::Round { .. } | Shape::Arc { .. })
+            | (Part::Value, Shape::Number { .. }) => true,
+            _ => false,
+        }
+    }
+
+    fn of(self, object: &Located) -> Option<Interval> {
+        match (self, object) {
+            (Part::Turn, Located::Joint { turn, .. }) => *turn,
+            (Part::Travel, Located::Joint { travel, .. }) => *travel,
+            (Part::Radius | Part::Value, object) => object.number(),
+            _ => None,
+        }
+    }
+}
+
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum What {
     Distance,
@@ -24,26 +96,12 @@ enum What {
     Torsion,
     Coordinate(usize),
     Area,
+    /// A number of an object.
+    Number(Part, usize),
 }
 
 /// The forms, for messages.
-const FORMS: &str = "`A-B`, `angle A B C`, `turn A B C`, `torsion A B C D`, `x A`, `y A`, `z A` or `area A B C ...`";
-
-/// What a text says, or, where it says nothing and has the form `name = text`, what the text behind says, by that name.
-pub fn with_a_name<T>(
-    text: &str,
-    parse: impl Fn(&str) -> Result<T, String>,
-    call: impl Fn(&mut T, String),
-) -> Result<T, String> {
-    let text = text.trim();
-    // Names of points may have anything in them.
-    parse(text).or_else(|why| {
-        let (name, text) = text.split_once('=').ok_or(why)?;
-        let mut found = parse(text.trim())?;
-        call(&mut found, name.trim().to_owned());
-        Ok(found)
-    })
-}
+const FORMS: &str = "`A-B`, `angle A B C`, `turn A B C`, `torsion A B C D`, `x A`, `y A`, `z A` or `area A B C ...`, with points of the problem, or of objects `turn J`, `travel J`, `radius C` or `value x`";
 
 impl Quantity {
     /// Whether another one is the same length, angle, turn or torsion, whatever both are called.
@@ -76,14 +134,44 @@ impl Quantity {
     /// # Errors
     /// That it is none, and why.
     pub fn parse(problem: &Problem, text: &str) -> Result<Self, String> {
-        with_a_name(
-            text,
-            |text| Self::unnamed(problem, text),
-            |found, name| found.name = name,
-        )
+        let text = text.trim();
+        // Names of points may have anything in them.
+        Self::unnamed(problem, text).or_else(|why| {
+            let (name, text) = text.split_once('=').ok_or(why)?;
+            Ok(Quantity {
+                name: name.trim().to_owned(),
+                ..Self::unnamed(problem, text.trim())?
+            })
+        })
     }
 
     fn unnamed(problem: &Problem, text: &str) -> Result<Self, String> {
+        // Names of points may be anything.
+        let why = match Self::of_points(problem, text) {
+            Ok(quantity) => return Ok(quantity),
+            Err(why) => why,
+        };
+        let named = text.split_once(char::is_whitespace);
+        let Some((part, what, name)) = named.and_then(|(word, name)| {
+            let (part, what) = Part::named(word)?;
+            Some((part, what, name.trim()))
+        }) else {
+            return Err(why);
+        };
+        let mut objects = problem.objects.iter();
+        match objects.position(|o| o.name == name && part.is_of(&o.shape)) {
+            Some(object) => Ok(Quantity {
+                name: text.to_owned(),
+                what: What::Number(part, object),
+                points: Vec::new(),
+            }),
+            // `turn A B C` is of points.
+            None if part == Part::Turn && name.contains(char::is_whitespace) => Err(why),
+            None => Err(format!("--measure \"{text}\": there is no {what} `{name}`")),
+        }
+    }
+
+    fn of_points(problem: &Problem, text: &str) -> Result<Self, String> {
         let point = |name: &str| problem.points.iter().position(|p| p.name == name);
         let fail = |why: String| Err(format!("--measure \"{text}\": {why}"));
         let named = |what, points| {
@@ -112,7 +200,7 @@ impl Quantity {
             Some("area") if problem.dimension == 2 => (What::Area, 0),
             Some("turn" | "area") => return fail("is for figures in the plane".to_owned()),
             Some("torsion" | "z") => return fail("is for figures in space".to_owned()),
-            _ => return fail(format!("write {FORMS}, with points of the problem")),
+            _ => return fail(format!("write {FORMS}")),
         };
         let mut points = Vec::new();
         for name in words {
@@ -133,9 +221,17 @@ impl Quantity {
         }
     }
 
-    /// An enclosure, in the unit of the problem, its square, or degrees.
-    pub fn of(&self, figure: &[[Interval; 3]]) -> Interval {
-        match self.found(|p| figure[p]) {
+    /// An enclosure, in the unit of the problem, its square, or degrees; of an object that is nowhere told of anything.
+    pub fn of(&self, points: &[[Interval; 3]], objects: &[Located]) -> Interval {
+        if let What::Number(part, object) = self.what {
+            let number = objects.get(object).and_then(|object| part.of(object));
+            return number.unwrap_or(Interval::ENTIRE);
+        }
+        let unknown = |_: usize| unreachable!("it is of points");
+        match self.found(&Seen {
+            point: |p: usize| points[p],
+            numbers: unknown,
+        }) {
             Found::Number(x) => x,
             Found::Direction(x, y) => direction(x, y),
         }
@@ -143,17 +239,23 @@ impl Quantity {
 
     /// A number that grows with the quantity and takes no time to speak of: of angles that have a sense of turn one that grows by
     /// [`WHOLE_TURN`] over a whole turn, the one nearest to `near` of all that differ by whole turns. [`Quantity::of_key`] says of what it is.
-    /// Of points as `at` has them.
-    pub fn key<T: Quantifiable>(&self, at: impl Fn(usize) -> [T; 3], near: f64) -> Interval {
-        self.whole(self.found(at), near).0
+    pub fn key<T: Quantifiable>(
+        &self,
+        seen: &Seen<impl Fn(usize) -> [T; 3], impl Fn(usize) -> Numbers<T>>,
+        near: f64,
+    ) -> Interval {
+        self.whole(self.found(seen), near).0
     }
 
-    /// The key along a stretch of a curve, of which the second number is the parameter as seen from the middle: of points as `around` has
+    /// The key along a stretch of a curve, of which the second number is the parameter as seen from the middle: of things as `around` has
     /// them there, with a slope each, and as `middle` has them in the middle.
     pub fn key_along(
         &self,
-        (around, along): (impl Fn(usize) -> [Along; 3], Interval),
-        middle: impl Fn(usize) -> [Interval; 3],
+        (around, along): (
+            &Seen<impl Fn(usize) -> [Along; 3], impl Fn(usize) -> Numbers<Along>>,
+            Interval,
+        ),
+        middle: &Seen<impl Fn(usize) -> [Interval; 3], impl Fn(usize) -> Numbers<Interval>>,
         near: f64,
     ) -> Interval {
         let (key, slope) = self.whole(self.found(around), near);
@@ -161,9 +263,21 @@ impl Quantity {
         key.intersection(by_slope)
     }
 
-    /// The derivative of the key, of points that move with slopes.
-    pub fn slope_of_key(&self, at: impl Fn(usize) -> [Along; 3], near: f64) -> Interval {
-        self.whole(self.found(at), near).1
+    /// The derivative of the key, of things that move with slopes.
+    pub fn slope_of_key(
+        &self,
+        seen: &Seen<impl Fn(usize) -> [Along; 3], impl Fn(usize) -> Numbers<Along>>,
+        near: f64,
+    ) -> Interval {
+        self.whole(self.found(seen), near).1
+    }
+
+    /// The object that it is a number of, if it is one.
+    pub fn object(&self) -> Option<usize> {
+        match self.what {
+            What::Number(_, object) => Some(object),
+            _ => None,
+        }
     }
 
     /// The points that it is measured of.
@@ -196,10 +310,10 @@ impl Quantity {
             f64::INFINITY
         };
         let key = match self.what {
-            What::Angle | What::Distance | What::Area => {
+            What::Angle | What::Distance | What::Area | What::Number(Part::Radius, _) => {
                 hull(key.inf().clamp(0.0, most), key.sup().clamp(0.0, most))
             }
-            What::Turn | What::Torsion | What::Coordinate(_) => key,
+            What::Turn | What::Torsion | What::Coordinate(_) | What::Number(..) => key,
         };
         if !self.is_in_degrees() {
             return key;
@@ -210,7 +324,10 @@ impl Quantity {
 
     /// Whether it is an angle with a sense of turn, which grows from turn to turn.
     pub fn is_direction(&self) -> bool {
-        matches!(self.what, What::Turn | What::Torsion)
+        matches!(
+            self.what,
+            What::Turn | What::Torsion | What::Number(Part::Turn, _)
+        )
     }
 
     /// Whether it is an angle.
@@ -218,11 +335,13 @@ impl Quantity {
         self.unit() == "degrees"
     }
 
-    /// What it is measured in: `degrees`, `length` or `area`.
+    /// What it is measured in: `degrees`, `length`, `area`, or `number` of an unknown.
     pub fn unit(&self) -> &'static str {
         match self.what {
-            What::Angle | What::Turn | What::Torsion => "degrees",
+            What::Angle | What::Turn | What::Torsion | What::Number(Part::Turn, _) => "degrees",
             What::Distance | What::Coordinate(_) => "length",
+            What::Number(Part::Radius | Part::Travel, _) => "length",
+            What::Number(Part::Value, _) => "number",
             What::Area => "area",
         }
     }
@@ -232,8 +351,11 @@ impl Quantity {
         !matches!(self.what, What::Coordinate(_))
     }
 
-    fn found<T: Quantifiable>(&self, at: impl Fn(usize) -> [T; 3]) -> Found<T> {
-        let at = |k: usize| at(self.points[k]);
+    fn found<T: Quantifiable>(
+        &self,
+        seen: &Seen<impl Fn(usize) -> [T; 3], impl Fn(usize) -> Numbers<T>>,
+    ) -> Found<T> {
+        let at = |k: usize| (seen.point)(self.points[k]);
         let between = |a: usize, b: usize| minus(at(b), at(a));
         let size = |v: [T; 3]| T::length(v);
         Found::Number(match self.what {
@@ -258,6 +380,16 @@ impl Quantity {
                     sum + cross(between(0, k), between(0, k + 1))[2]
                 });
                 twice.abs() * T::constant(0.5)
+            }
+            What::Number(part, object) => {
+                let of = (seen.numbers)(object);
+                let number = match (part, of.turn) {
+                    (Part::Turn, Some([x, y])) => return Found::Direction(x, y),
+                    (Part::Travel, _) => of.travel,
+                    _ => of.number,
+                };
+                // What is nowhere told may be anything.
+                number.unwrap_or(T::fixed(Interval::ENTIRE))
             }
         })
     }

@@ -17,12 +17,24 @@ pub struct PathEnd {
     pub kind: EndKind,
     /// What stopped a run there that is followed both ways whatever does.
     pub stop: Option<StopKind>,
-    /// In words what the figure does there, and what stopped the proof or the run.
+    /// In words what happens there; empty where nothing is known but what stopped the run.
+    pub what: String,
+    /// The same, and what stopped the proof or the run.
     pub reason: String,
     /// At an end at infinity where a point goes there: which, and how far it was followed.
     pub away: Option<Away>,
     /// The figure near the end, point by point, in floats and in the problem's unit.
     pub points: Vec<[f64; 3]>,
+}
+
+impl PathEnd {
+    /// What happens there, or where that is not known what stopped the run; without a full stop.
+    pub fn in_words(&self) -> &str {
+        match self.what.is_empty() {
+            true => self.reason.trim_end().trim_end_matches('.'),
+            false => &self.what,
+        }
+    }
 }
 
 /// A point that goes away. In certified mode it is proved that at the path's last point it is so far away, and that it

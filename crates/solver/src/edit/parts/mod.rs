@@ -428,6 +428,10 @@ impl Parts {
 }
 
 impl Way for Parts {
+    fn copy(&self) -> Box<dyn Way> {
+        Box::new(self.clone())
+    }
+
     fn problem(&self) -> &Problem {
         self.plain.as_deref().unwrap_or(&self.cut.problem)
     }

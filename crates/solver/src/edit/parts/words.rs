@@ -13,9 +13,11 @@ use std::collections::BTreeSet;
 impl Parts {
     /// What a claim is proved of, with what is known of each row that was left out, by place.
     pub(super) fn account_of(&self, verdict: impl Fn(usize) -> Verdict) -> Account {
+        let singular = self.cut.singular.as_ref();
         let value = |u: usize| self.figure.enclosure(u) * point(self.cut.unit_of(u));
         Account {
             added: self.contacts.iter().map(Kept::equation).collect(),
+            drawing: singular.filter(|s| s.moved.is_some()).map(|s| s.in_words()),
             ..self.cut.account(value, verdict)
         }
     }
@@ -30,10 +32,13 @@ impl Parts {
                 .filter(|(_, exact)| !**exact)
                 .map(|(block, _)| self.cut.unknowns_of(block))
                 .collect(),
-            account: self.account_of(|k| match self.proved[k] {
-                true => Verdict::Follows,
-                false => Verdict::NotLookedAt,
-            }),
+            account: Account {
+                drawing: None,
+                ..self.account_of(|k| match self.proved[k] {
+                    true => Verdict::Follows,
+                    false => Verdict::NotLookedAt,
+                })
+            },
             singular: self.cut.singular.clone(),
         }
     }

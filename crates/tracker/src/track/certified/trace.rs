@@ -61,8 +61,10 @@ struct Piece {
     /// Length of the path up to `from`, and up to `to`.
     at: f64,
     end: f64,
-    /// How far the path may be from the tube's polynomial, in any coordinate, in the problem's units.
+    /// How far the path may be from the tube's polynomial, in any unknown, coordinates in the problem's units.
     within: f64,
+    /// Whether nothing is kept of the unknowns beside the coordinates.
+    has_places_alone: bool,
 }
 
 #[derive(Debug, Clone)]
@@ -156,6 +158,7 @@ impl Trace {
             at,
             end: length(to),
             within: self.within(tube),
+            has_places_alone: false,
         });
         let (from, start) = (tube.entry.0.max(-tube.proof.h), tube.entry.1);
         let mut turns = std::mem::take(&mut self.turns);
@@ -174,7 +177,7 @@ impl Trace {
         self.turns = turns;
     }
 
-    /// How far the path may be from the middle of a tube, in any coordinate.
+    /// How far the path may be from the middle of a tube, in any unknown.
     fn within<const N: usize, Y: Frame>(&self, tube: &Tube<N, Y>) -> f64 {
         let (distance, unit) = (point(tube.proof.distance), point(self.unit));
         let weights = tube.weights[..self.width - 1].iter();
@@ -201,6 +204,7 @@ impl Trace {
         self.pieces.extend(piece.pieces.iter().map(|piece| Piece {
             at: before + piece.at,
             end: before + piece.end,
+            has_places_alone: true,
             ..*piece
         }));
         self.turns.go_on(rising);
@@ -296,15 +300,15 @@ impl Trace {
         piece.at + (piece.end - piece.at) * part
     }
 
-    /// A box around the figure of the path where it is about so long, in the gauge and the units of the problem.
-    pub fn box_at(&self, at: f64) -> Option<Vec<[Interval; 3]>> {
+    /// The place of the path where it is about so long.
+    pub fn place_at(&self, at: f64) -> Option<TubePart<'_>> {
         if at < 0.0
             && let Some(back) = &self.back
         {
-            return back.box_at(-at);
+            return back.place_at(-at);
         }
         let (tube, part) = self.part_at(at)?;
-        Some(self.part(tube, (part, part)).points())
+        Some(self.part(tube, (part, part)))
     }
 
     /// The number of tubes.
@@ -435,37 +439,42 @@ impl TubePart<'_> {
     }
 
     /// A box of a point, and of how fast the tube's polynomial moves: the path is beside it, at most so far that the box holds it.
-    pub fn around(&self, point: usize) -> [Along; 3] {
-        self.at(point, self.s)
-    }
-
-    /// A box of a point in the middle.
-    pub fn middle(&self, point: usize) -> [Interval; 3] {
-        let s = crate::interval::point(self.s.mid());
-        self.at(point, s).each(|x| x.value)
-    }
-
-    fn at(&self, p: usize, s: Interval) -> [Along; 3] {
-        let (trace, zero) = (self.trace, Along::constant(0.0));
-        let Some(gauge) = trace.homotopy.as_ref().map(|homotopy| &homotopy.gauge) else {
-            return [zero; 3];
+    fn around(&self, point: usize) -> [Along; 3] {
+        let Some(homotopy) = &self.trace.homotopy else {
+            return [Along::constant(0.0); 3];
         };
+        let unit = Along::constant(homotopy.unit);
+        homotopy.place(point, |i| self.entry(i, self.s) * unit)
+    }
+
+    /// A range of an unknown, in the homotopy's own unit, likewise.
+    pub fn entry_around(&self, i: usize) -> Along {
+        self.entry(i, self.s)
+    }
+
+    /// A range of an unknown in the middle.
+    pub fn entry_in_middle(&self, i: usize) -> Interval {
+        self.entry(i, point(self.s.mid())).value
+    }
+
+    fn entry(&self, i: usize, s: Interval) -> Along {
+        let trace = self.trace;
         let (n, start) = (trace.width, self.tube * trace.order * trace.width);
-        let within = trace.pieces[self.tube].within;
-        let (unit, near) = (point(trace.unit), hull(-within, within));
-        let d = gauge.dimension;
-        array(|axis| {
-            let variable = gauge.variable.get(p * d + axis).copied();
-            let Some(i) = variable.filter(|&i| axis < d && i < gauge.place.len()) else {
-                return zero;
+        let piece = &trace.pieces[self.tube];
+        let places = trace.homotopy.as_ref().map_or(0, |of| of.gauge.place.len());
+        if piece.has_places_alone && i >= places {
+            return Along {
+                value: Interval::ENTIRE,
+                slope: Interval::ENTIRE,
             };
-            let coefficient = |k: usize| point(trace.coefficients[start + k * n + i]);
-            let Along { value, slope } = enclosed(coefficient(0), trace.order, coefficient, s);
-            Along {
-                value: value * unit + near,
-                slope: slope * unit,
-            }
-        })
+        }
+        let within = (point(piece.within) / point(trace.unit)).sup();
+        let coefficient = |k: usize| point(trace.coefficients[start + k * n + i]);
+        let Along { value, slope } = enclosed(coefficient(0), trace.order, coefficient, s);
+        Along {
+            value: value + hull(-within, within),
+            slope,
+        }
     }
 }
 

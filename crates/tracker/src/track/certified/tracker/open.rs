@@ -224,16 +224,33 @@ impl<const N: usize, T: Test<N>> Tracker<'_, N, T> {
         let end = match halt.came_to {
             _ if self.homotopy.tail.is_empty() => None,
             CameTo::Nothing => None,
-            CameTo::Away(_) | CameTo::Endless => Some((EndKind::Infinite, String::new())),
-            CameTo::Vanishing => Some((EndKind::Undefined, String::new())),
-            CameTo::Stuck { is_singular } => self.stuck_at(is_singular),
+            CameTo::Away(_) | CameTo::Endless => Some((EndKind::Infinite, None)),
+            CameTo::Vanishing => Some((EndKind::Undefined, None)),
+            CameTo::Stuck { is_singular } => {
+                let seen = self.stuck_at(is_singular);
+                seen.map(|(kind, what)| (kind, Some(what)))
+            }
         };
         let stop = halt.stop.kind;
         let goes_on = self.goes_both_ways && stop != StopKind::Interrupted;
         let (kind, stop, what) = match end {
             Some((kind, what)) => (kind, None, what),
-            None if goes_on => (EndKind::Stopped, Some(stop), String::new()),
+            None if goes_on => (EndKind::Stopped, Some(stop), Some(String::new())),
             None => return Err(halt),
+        };
+        let (what, reason) = match what {
+            // Of what is seen before a run is stuck its stop says what, and where.
+            None => {
+                let text = &halt.stop.text;
+                let place = format!(", {}", self.place());
+                let what = text.strip_suffix(&place).unwrap_or(text).to_owned();
+                (what, text.clone())
+            }
+            Some(what) if what.is_empty() => (what, halt.stop.text.clone()),
+            Some(what) => {
+                let reason = format!("{what}: {}", halt.stop);
+                (what, reason)
+            }
         };
         let away = match halt.came_to {
             CameTo::Away(away) => Some(away),
@@ -243,7 +260,8 @@ impl<const N: usize, T: Test<N>> Tracker<'_, N, T> {
             t: self.reached(),
             kind,
             stop,
-            reason: format!("{what}{}", halt.stop),
+            what,
+            reason,
             away,
             points: places(&self.homotopy, &self.now.local.z[0]),
         })
@@ -256,18 +274,18 @@ impl<const N: usize, T: Test<N>> Tracker<'_, N, T> {
         let flat = self.crossing.as_ref().and_then(Crossing::failure);
         let small = vanishing(homotopy, z, &self.sketch.centre, self.size_of_sketch);
         if let Some(name) = small {
-            Some((EndKind::Undefined, format!("{name} goes to zero: ")))
+            Some((EndKind::Undefined, format!("{name} goes to zero")))
         } else if !leg.is_empty() {
             let what = leg.trim_start_matches("; ");
-            Some((EndKind::Undefined, format!("{what}: ")))
+            Some((EndKind::Undefined, what.to_owned()))
         } else if let Some(why) = flat {
             let what =
                 "a degenerate (flat) figure at t = 1, beyond which the path could not be followed";
-            Some((EndKind::Degenerate, format!("{what}: {why}; ")))
+            Some((EndKind::Degenerate, format!("{what} ({why})")))
         } else if is_singular {
             let flexible = self.flexibility().map(|words| format!("{words}; "));
             let flexible = flexible.unwrap_or_default();
-            Some((EndKind::Degenerate, format!("{flexible}{DEGENERATE}: ")))
+            Some((EndKind::Degenerate, format!("{flexible}{DEGENERATE}")))
         } else {
             None
         }

@@ -117,7 +117,7 @@ impl<'h> Ends<'h> {
         let m = self.homotopy.equations;
         Halt::Ended(Box::new(PathEnd {
             t: (now[m].min(next[m]), now[m].max(next[m])),
-            ..self.end(now, EndKind::Undefined, reason)
+            ..self.end(now, EndKind::Undefined, String::new(), reason)
         }))
     }
 
@@ -145,10 +145,11 @@ impl<'h> Ends<'h> {
 
     /// The end of a path on which a point goes away; `place` says where, in words.
     pub fn infinite(&self, z: &[f64], away: Away, place: &str) -> Halt {
-        let words = format!("{}, {place}", in_words(self.homotopy, away));
+        let what = in_words(self.homotopy, away);
+        let words = format!("{what}, {place}");
         Halt::Ended(Box::new(PathEnd {
             away: Some(away),
-            ..self.end(z, EndKind::Infinite, words)
+            ..self.end(z, EndKind::Infinite, what, words)
         }))
     }
 
@@ -163,24 +164,27 @@ impl<'h> Ends<'h> {
             equations.n() <= LARGEST_SQUARE
                 && condition(equations, z, normal).is_none_or(|condition| condition > SINGULAR)
         };
-        let (kind, words) = if let Some(name) = small {
-            (EndKind::Undefined, format!("{name} goes to zero: {stop}"))
+        let (kind, what) = if let Some(name) = small {
+            (EndKind::Undefined, format!("{name} goes to zero"))
         } else if !leg.is_empty() {
-            (EndKind::Undefined, stop.text.clone())
+            let what = leg.trim_start_matches("; ").to_owned();
+            (EndKind::Undefined, what)
         } else if is_singular() {
-            (EndKind::Degenerate, format!("{DEGENERATE}: {stop}"))
+            (EndKind::Degenerate, DEGENERATE.to_owned())
         } else {
             return stop.into();
         };
-        Halt::Ended(Box::new(self.end(z, kind, words)))
+        let words = format!("{what}: {stop}");
+        Halt::Ended(Box::new(self.end(z, kind, what, words)))
     }
 
-    fn end(&self, z: &[f64], kind: EndKind, reason: String) -> PathEnd {
+    fn end(&self, z: &[f64], kind: EndKind, what: String, reason: String) -> PathEnd {
         let t = z[self.homotopy.equations];
         PathEnd {
             t: (t, t),
             kind,
             stop: None,
+            what,
             reason,
             away: None,
             points: places(self.homotopy, z),
@@ -191,7 +195,10 @@ impl<'h> Ends<'h> {
 /// Where t goes on without end: an end of the path if it has any, see [`Ends`].
 pub fn endless(ends: Option<&Ends<'_>>, z: &[f64], words: String) -> Halt {
     match ends {
-        Some(ends) => Halt::Ended(Box::new(ends.end(z, EndKind::Infinite, words))),
+        Some(ends) => {
+            let what = String::new();
+            Halt::Ended(Box::new(ends.end(z, EndKind::Infinite, what, words)))
+        }
         None => Stop::new(StopKind::Infinite, words).into(),
     }
 }
