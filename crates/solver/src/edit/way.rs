@@ -103,6 +103,7 @@ pub(super) trait Way: std::fmt::Debug + Send {
             t: run.t,
             dimensions: dimensions.collect(),
             points: self.points_of(figure),
+            there: None,
             objects: self.objects_of(figure),
             orientations: Orientations::new(run.orientations),
             tubes: run.steps,
