@@ -15,7 +15,7 @@ use krawl::remarks::moves;
 use krawl::report::{
     Document, account_in_words, edit_to_table, followed_to_table, signs_of_figure,
 };
-use krawl::track::{Control, Options, StopKind};
+use krawl::track::{Control, Options};
 use std::path::{Path, PathBuf};
 
 /// Change dimensions of a figure and keep the figure, with proof, or say how far it can go
@@ -106,8 +106,9 @@ pub(super) struct LeftOut {
     pub redundant_tolerance: Option<f64>,
     /// Keep the edges of closed outlines from touching
     ///
-    /// In sketches in the plane: a way ends where two lines or arcs of closed outlines come to touch that are apart as they are drawn, and
-    /// says which; circles are not looked at, nor are edges with a common end but lines that fold onto each other
+    /// In sketches in the plane: a way ends where two edges of closed outlines come to touch that are apart as they are drawn, and says
+    /// which. Edges are the lines, arcs and circles of the file; a circle is an outline of its own. Of edges with a common end only lines
+    /// are looked at, whether they fold onto each other
     #[arg(long, hide_short_help = true)]
     pub simple: bool,
 }
@@ -278,6 +279,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
         let of = match edited.ending {
             Ending::Reached => "",
             Ending::Limit(_) => " at the limit",
+            _ if edited.there.is_some() => " of the figure shortly before",
             Ending::Passes(_) | Ending::Stopped(_) => " of the old figure",
         };
         let mut text = as_turns + &drawn + &table + &account_in_words(&edited.account);
@@ -367,7 +369,7 @@ pub(super) fn commit(
         return Ok((true, None));
     };
     if let Ending::Stopped(stop) = &edited.ending
-        && matches!(stop.kind, StopKind::Vanishes | StopKind::Touches)
+        && edited.ending.is_at_an_edge()
     {
         let text = format!("no certificate was written: {stop}");
         output::complain(&in_file(file)(text));

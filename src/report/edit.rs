@@ -56,7 +56,11 @@ pub fn edit_in_words(problem: &Problem, edited: &Edited) -> String {
     }
     let changes = edited.dimensions.iter().map(|d| {
         let name = problem.dimension_name(d.index);
-        format!("{name} from {} to {}", short(d.from), short(d.to))
+        let there = match edited.ending.is_at_an_edge() {
+            true => format!(", there {}", certain_digits(d.value)),
+            false => String::new(),
+        };
+        format!("{name} from {} to {}{there}", short(d.from), short(d.to))
     });
     let changes = changes.collect::<Vec<_>>().join(", ");
     // Beside so long a way what happens on it is not to be told from its beginning.
@@ -252,9 +256,18 @@ pub fn edit_to_table(problem: &Problem, edited: &Edited, moved: Moved) -> String
         _ if problem.points.is_empty() => "Old solution",
         Ending::Reached => "Figure, in the coordinates of the file",
         Ending::Limit(_) => "Figure at the limit, in the coordinates of the file",
+        _ if edited.there.is_some() => "Figure shortly before",
         _ => "Old figure, in the coordinates of the file",
     };
-    out += &format!("\n{what}\n");
+    out += &format!("\n{what}");
+    if let Some(values) = &edited.there {
+        let at = edited.dimensions.iter().zip(values);
+        let at =
+            at.map(|(d, value)| format!("{} = {}", problem.dimension_name(d.index), short(*value)));
+        let at = at.collect::<Vec<_>>().join(", ");
+        out += &format!(", at {at}, in the coordinates of the file");
+    }
+    out.push('\n');
     write_points(&mut out, problem, &edited.points);
     write_numbers(&mut out, problem, &edited.objects);
     out += &format!("\n{DIGITS}\n");

@@ -58,6 +58,10 @@ keys! {
     } or nothing {
         /// How the figure stands to the signs that the problem asks for, in words, proved.
         signs: Option<String> = signs_in_words(problem, &edited.points),
+        /// Where `points` are the figure shortly before an edge vanishes or two come to touch: the values of the dimensions there.
+        points_at: Option<Named<Bounds>> = edited.there.as_ref().map(|values| Named(all(edited.dimensions.iter().zip(values), |(d, value)| {
+            (problem.dimension_name(d.index), bounds(value))
+        }))),
         /// What came of dragging.
         dragged: Option<Dragged> = edited.dragged.as_ref().map(|dragged| Dragged::new(problem, dragged)),
         /// The values of unknown numbers.

@@ -82,8 +82,11 @@ pub struct Edited {
     /// The dimensions that were edited.
     pub dimensions: Vec<Dimension>,
     /// The figure in the coordinates of the problem: a box that holds exactly one figure with the dimensions of
-    /// `t`, where it was reached and at a limit; otherwise the old figure.
+    /// `t`, where it was reached and at a limit; shortly before, where there is a [`Edited::there`]; otherwise the old figure.
     pub points: Vec<[Interval; 3]>,
+    /// Where it ended at an edge that vanishes, or at two that come to touch: the values, shortly before, of the dimensions that were edited,
+    /// with which `points` are the one and only continuation.
+    pub there: Option<Vec<Interval>>,
     /// Where the problem's objects are in that figure.
     pub objects: Vec<Located>,
     /// What is proved of the orientations.
@@ -156,6 +159,11 @@ impl Astray {
 }
 
 impl Ending {
+    /// Whether it is where an edge vanishes, or two come to touch.
+    pub fn is_at_an_edge(&self) -> bool {
+        matches!(self, Ending::Stopped(stop) if matches!(stop.kind, StopKind::Vanishes | StopKind::Touches))
+    }
+
     /// Whether the proof ended at a constraint that contradicts others.
     pub(super) fn is_contradiction(&self) -> bool {
         matches!(self, Ending::Stopped(stop) if stop.kind == StopKind::Contradiction)

@@ -1,12 +1,12 @@
 //! Lines and arcs that shrink to nothing end an edit: beyond they would be turned round. If that is asked for, so do edges of closed
-//! outlines that come to touch.
+//! outlines, circles among them, that come to touch.
 //!
 //! The equations do not know which way a line along an axis runs, nor that the end of an arc comes after its start: a path goes
 //! on through a line of length 0, and through an arc of 0 or 360 degrees. What is drawn is another figure then. So such a place is
 //! an end, in every verb, unless a dimension with a sign says itself that this very line is to run the other way.
 
 use crate::blocks::list_of;
-use crate::interval::{Interval, point};
+use crate::interval::{Interval, enclose, point};
 use crate::places::Each as _;
 use crate::problem::{Item, Problem, Shape};
 use crate::system::{Extent, Segment, sign_of};
@@ -47,30 +47,40 @@ pub(super) fn segments(
 
 /// What of the closed outlines of a sketch is to stay apart.
 pub(super) struct Outlines {
-    /// All pairs of their edges that are apart as they are drawn: those without a common end; and lines with one, which are not to fold
-    /// onto each other.
+    /// All pairs of their edges that are apart as they are drawn: those without a common end, circles among them; and lines with one, which
+    /// are not to fold onto each other.
     pub pairs: Vec<Segment>,
     /// The names of pairs that are not, or cannot be told to be.
     pub others: Vec<String>,
 }
 
-/// The closed outlines of lines and arcs of a sketch in the plane: what is left of the drawing where all lines and arcs are taken away, again and
-/// again, of which an end is not the end of another one; with lines across them if there are such. `is_same`: as of [`segments`].
-pub(super) fn outlines(
-    problem: &Problem,
-    is_same: impl Fn(usize, usize, usize) -> bool,
-) -> Outlines {
+/// What edges of a sketch in the plane are between, by index of the object: the ends of a line; centre, start and end of an arc; the
+/// centre of a circle.
+fn edges(problem: &Problem) -> Vec<(usize, Vec<usize>)> {
     let objects = problem.objects.iter().enumerate();
     let edges = objects.filter_map(|(object, of)| match of.shape {
         Shape::Line([a, b]) => Some((object, vec![a, b])),
         Shape::Arc { center, start, end } => Some((object, vec![center, start, end])),
+        Shape::Round { center, .. } => Some((object, vec![center])),
         _ => None,
     });
-    let mut edges: Vec<(usize, Vec<usize>)> = match problem.dimension {
-        2 => edges.collect(),
+    edges.filter(|_| problem.dimension == 2).collect()
+}
+
+/// The closed outlines of a sketch in the plane: all circles; and what is left of the lines and arcs where all are taken away, again and
+/// again, of which an end is not the end of another one; with lines across them if there are such. `is_same`: as of [`segments`].
+/// `radius`: the unknown that is the radius of a circle.
+pub(super) fn outlines(
+    problem: &Problem,
+    is_same: impl Fn(usize, usize, usize) -> bool,
+    radius: impl Fn(usize) -> Option<usize>,
+) -> Outlines {
+    let mut edges = edges(problem);
+    // A circle has none.
+    let ends = |edge: &[usize]| match *edge {
+        [.., a, b] => vec![a, b],
         _ => Vec::new(),
     };
-    let ends = |edge: &[usize]| [edge[edge.len() - 2], edge[edge.len() - 1]];
     // Points that are in one place, by the first of them.
     let mut place: Vec<usize> = (0..problem.points.len()).collect();
     for p in 0..place.len() {
@@ -95,23 +105,40 @@ pub(super) fn outlines(
             break;
         }
     }
-    let drawn = |p: usize| problem.points[p].place().each(point);
+    let drawn_radius = |object: &usize| match &problem.objects[*object].shape {
+        Shape::Round { radius, .. } => Some([enclose(radius); 3]),
+        _ => None,
+    };
     let (mut pairs, mut others) = (Vec::new(), Vec::new());
     for (k, (object, one)) in edges.iter().enumerate() {
         for (other, two) in &edges[..k] {
-            let common = [[0, 0], [0, 1], [1, 0], [1, 1]].into_iter();
-            let common = common.filter(|&[i, j]| place[ends(one)[i]] == place[ends(two)[j]]);
+            let [of_one, of_two] = [ends(one), ends(two)];
+            let common = (0..of_one.len()).flat_map(|i| (0..of_two.len()).map(move |j| [i, j]));
+            let common = common.filter(|&[i, j]| place[of_one[i]] == place[of_two[j]]);
             let extent = match &common.collect::<Vec<_>>()[..] {
                 [] => Extent::Apart {
                     points: [&one[..], two].concat(),
                     first: one.len(),
+                    radii: [object, other]
+                        .into_iter()
+                        .filter_map(|&o| radius(o))
+                        .collect(),
                 },
                 [[i, j]] if one.len() == 2 && two.len() == 2 => Extent::Sweep {
                     points: [one[*i], one[1 - i], two[1 - j]],
                 },
                 _ => continue,
             };
-            if extent.sign(|k| drawn(extent.points()[k]), sign_of) == 0 {
+            let radii: Vec<_> = [object, other]
+                .into_iter()
+                .filter_map(drawn_radius)
+                .collect();
+            let count = extent.points().len();
+            let drawn = |k: usize| match k.checked_sub(count) {
+                None => problem.points[extent.points()[k]].place().each(point),
+                Some(k) => radii[k],
+            };
+            if extent.radii().len() != radii.len() || extent.sign(drawn, sign_of) == 0 {
                 others.push(both(problem, *other, *object));
                 continue;
             }
@@ -195,6 +222,10 @@ impl Reversed {
     }
 }
 
+/// Where two edges come to touch and one is nothing at values of t no further apart than this, it is the latter that is named. Which is
+/// first cannot be told by the tubes of the smallest radius, [`NARROWER`].
+const SAME: f64 = 1e-8;
+
 /// The segment that is the first not proved to keep its sense, before a path comes to its own end: at t = 1, or at `end`.
 pub(super) fn first_lost(
     kept: &[Kept],
@@ -207,11 +238,23 @@ pub(super) fn first_lost(
         0 => None,
         _ => Some((kept, kept.lost?)),
     });
+    let lost: Vec<(&Kept, (f64, f64))> = lost.collect();
     // What cannot be told from the end of the path is no end before it; but t = 1 is to be reached by a figure.
+    let is_before = |t: (f64, f64)| t.1 <= end.0 || end.0 >= 1.0;
     let is_asked = |kept: &Kept| kept.other.is_none() && is_asked(kept.object);
-    let before = lost.filter(|(kept, t)| (t.1 < end.0 || end.0 >= 1.0) && !is_asked(kept));
-    let first = before.min_by(|a, b| a.1.0.total_cmp(&b.1.0));
-    first.map(|(kept, t)| (kept, (t.0.max(0.0), t.1.min(1.0))))
+    let by_time = |a: &(&Kept, (f64, f64)), b: &(&Kept, (f64, f64))| a.1.0.total_cmp(&b.1.0);
+    let ends = lost.iter().copied();
+    let ends = ends.filter(|(kept, t)| is_before(*t) && !is_asked(kept));
+    let (first, t) = ends.min_by(by_time)?;
+    // Where an edge vanishes its neighbours come to touch.
+    let vanishing = lost.into_iter();
+    let vanishing =
+        vanishing.filter(|(kept, at)| kept.other.is_none() && (at.0 - t.0).abs() <= SAME);
+    let kept = match first.other {
+        Some(_) => vanishing.min_by(by_time).map_or(first, |(kept, _)| kept),
+        None => first,
+    };
+    Some((kept, (t.0.max(0.0), t.1.min(1.0))))
 }
 
 /// In wide tubes a line or arc cannot be told from nothing long before it vanishes, or where it never does. Where that is so the way is
@@ -267,8 +310,9 @@ pub(super) fn stop(problem: &Problem, kept: &Kept) -> Stop {
     Stop::new(StopKind::Vanishes, words)
 }
 
-/// Of how many pairs of edges it is proved that they stay apart as far as a run goes, in words; nothing where that was not asked for.
-pub(super) fn apart_in_words(problem: &Problem, run: &ArcRun) -> Option<String> {
+/// Of how many pairs of edges it is proved that they stay apart as far as a run goes, in words, and which are not looked at; nothing where that was
+/// not asked for.
+pub(super) fn apart_in_words(problem: &Problem, run: &ArcRun, others: &[String]) -> Option<String> {
     let pairs = run.segments.iter().filter(|kept| kept.other.is_some());
     let is_told = |kept: &&Kept| kept.sign != 0 && kept.lost.is_none();
     let (told, not): (Vec<&Kept>, Vec<&Kept>) = pairs.partition(is_told);
@@ -283,13 +327,21 @@ pub(super) fn apart_in_words(problem: &Problem, run: &ArcRun) -> Option<String> 
         names if names.is_empty() => String::new(),
         names => format!(", not of {}", list_of(&names, 3)),
     };
+    let unseen = match others {
+        [] => String::new(),
+        others => format!("; not looked at: {}", list_of(others, 3)),
+    };
     let count = told.len();
-    (count > 0 || !not.is_empty())
-        .then(|| format!("edges of closed outlines stay apart{far}, proved of {count} pairs{not}"))
+    (count > 0 || !not.is_empty()).then(|| {
+        format!("edges of closed outlines stay apart{far}, proved of {count} pairs{not}{unseen}")
+    })
 }
 
-/// What is kept apart in all that a session does, in words.
-pub(super) fn kept_apart_in_words(pairs: usize, others: &[String]) -> String {
+/// What is kept apart in all that a session does, in words: so many pairs, and what is not.
+pub(super) fn kept_apart_in_words(problem: &Problem, pairs: usize, others: &[String]) -> String {
+    const DECLARED: &str = "edges are the lines, arcs and circles that a file declares (problem files: under [lines], as in `ab = [\"a\", \"b\"]`, \
+                            [arcs] and [circles]), not distances or constraints between points";
+    let edges = edges(problem).len();
     let not = match others {
         [] => String::new(),
         others => format!(
@@ -297,10 +349,17 @@ pub(super) fn kept_apart_in_words(pairs: usize, others: &[String]) -> String {
             list_of(others, 3)
         ),
     };
-    match pairs {
-        0 => format!("There are no edges of closed outlines that are kept apart.{not}"),
-        pairs => format!(
-            "Edges of closed outlines are kept apart: {pairs} pairs of lines and arcs, not circles, nor an arc and its neighbours.{not}"
+    match (pairs, edges) {
+        (0, _) if problem.dimension != 2 => {
+            "Nothing is kept apart: edges of closed outlines are those of sketches in the plane."
+                .to_owned()
+        }
+        (0, 0) => format!("Nothing is kept apart: {DECLARED}, and here there are none."),
+        (0, edges) => format!(
+            "Nothing is kept apart: {DECLARED}; here there are {edges}, of which no two are of closed outlines and apart as they are drawn.{not}"
+        ),
+        (pairs, _) => format!(
+            "Edges of closed outlines are kept apart: {pairs} pairs of lines, arcs and circles, not an arc and its neighbours.{not}"
         ),
     }
 }

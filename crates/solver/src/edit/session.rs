@@ -153,7 +153,7 @@ impl Session {
     pub fn outlines_in_words(&self) -> Option<String> {
         let pairs = self.way.segments().iter().filter(|s| s.other.is_some());
         let others = self.way.outlines()?;
-        Some(kept_apart_in_words(pairs.count(), others))
+        Some(kept_apart_in_words(self.problem(), pairs.count(), others))
     }
 
     /// How the equations fall apart, if they are followed part by part.
@@ -175,7 +175,34 @@ impl Session {
     /// Changes dimensions as [`Session::edit`] does, with the hooks of `control`.
     pub fn edit_with(&mut self, settings: &[Setting], control: &mut Control) -> Edited {
         let edited = self.way.edit(settings, Keep::Always, control);
-        self.looked_at(edited, false)
+        let edited = self.looked_at(edited, false);
+        self.with_figure_there(edited, settings, control)
+    }
+
+    /// An edit that ended where an edge vanishes or two come to touch, with the figure shortly before, as near as one is proved.
+    fn with_figure_there(
+        &mut self,
+        mut edited: Edited,
+        settings: &[Setting],
+        control: &mut Control,
+    ) -> Edited {
+        // By so much of the way: what vanishes is told in narrow tubes, and has to be told again.
+        const BEFORE: [f64; 3] = [1e-12, 1e-9, 1e-6];
+        if !edited.ending.is_at_an_edge() {
+            return edited;
+        }
+        let there = BEFORE.iter().find_map(|before| {
+            let t = Some(edited.t.0 - before).filter(|t| *t > 0.0)?;
+            let short = settings.iter().map(|s| s.before(self.problem(), t));
+            let short: Vec<Setting> = short.collect::<Option<_>>()?;
+            let there = self.follow_to(&short, Keep::Never, control);
+            (there.ending == Ending::Reached && there.astray.is_none()).then_some(there)
+        });
+        if let Some(there) = there {
+            (edited.points, edited.objects) = (there.points, there.objects);
+            edited.there = Some(there.dimensions.iter().map(|d| d.value).collect());
+        }
+        edited
     }
 
     /// An edit that goes on past figures that miss what was left out. It ends before them, unless it is reached: that figure meets all
@@ -227,7 +254,8 @@ impl Session {
     /// What [`Session::edit`] would come to; the figure stays what it is.
     pub fn probe(&mut self, settings: &[Setting], control: &mut Control) -> Edited {
         let edited = self.way.edit(settings, Keep::Never, control);
-        self.looked_at(edited, false)
+        let edited = self.looked_at(edited, false);
+        self.with_figure_there(edited, settings, control)
     }
 }
 

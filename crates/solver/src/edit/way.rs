@@ -84,7 +84,8 @@ pub(super) trait Way: std::fmt::Debug + Send {
 
     /// What came of an edit that was followed so.
     fn edited(&self, settings: &[Setting], run: ArcRun, account: Account) -> Edited {
-        let apart = apart_in_words(self.problem(), &run);
+        let others = self.outlines().unwrap_or_default();
+        let apart = apart_in_words(self.problem(), &run, others);
         let remarks = self.remarks().into_iter().chain(apart);
         let t = hull(run.t.0, run.t.1);
         let t = (!matches!(run.end, ArcEnd::Reached(_))).then_some(t);
@@ -106,6 +107,7 @@ pub(super) trait Way: std::fmt::Debug + Send {
             t: run.t,
             dimensions: dimensions.collect(),
             points: self.points_of(figure),
+            there: None,
             objects: self.objects_of(figure),
             orientations: Orientations::new(run.orientations),
             tubes: run.steps,

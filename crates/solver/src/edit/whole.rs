@@ -9,7 +9,7 @@ use super::segments::{is_same_by_constraint, outlines, segments};
 use super::setting::Setting;
 use super::way::Way;
 use crate::blocks::Account;
-use crate::constraint::{Fault, Lowered, Owner, Record, try_lower_editable};
+use crate::constraint::{Entry, Fault, Lowered, Owner, Record, own_number, try_lower_editable};
 use crate::interval::{Interval, point};
 use crate::places::Each as _;
 use crate::problem::{Decimal, Problem};
@@ -72,7 +72,12 @@ impl Whole {
             homotopy.followed = senses(&problem);
             homotopy.segments = segments(&problem, is_same_by_constraint(&problem));
             if options.simple {
-                let found = outlines(&problem, is_same_by_constraint(&problem));
+                let radius = |object: usize| {
+                    let own = &homotopy.tail.objects[object];
+                    let own = own_number(&problem.objects[object].shape, own);
+                    homotopy.entry(own.map_or(Entry::Zero, Entry::Unknown))
+                };
+                let found = outlines(&problem, is_same_by_constraint(&problem), radius);
                 homotopy.segments.extend(found.pairs);
                 others = Some(found.others);
             }

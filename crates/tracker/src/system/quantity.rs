@@ -525,18 +525,19 @@ mod tests {
         let text = "dimension = 2\n[points]\na = [1, 0]\nb = [0, 0]\nc = [1, 9]\n[constraints]\ndistances = [[\"a\", \"b\", 1]]\n";
         let problem = Problem::parse_loosely(text, "t.toml").unwrap();
         let turn = Quantity::parse(&problem, "turn a b c").unwrap();
-        let at = |y: Interval| {
-            move |p: usize| {
+        let at = |y: Interval| Seen {
+            point: move |p: usize| {
                 [
                     [point(1.0), point(0.0), point(0.0)],
                     [point(0.0); 3],
                     [point(1.0), y, point(0.0)],
                 ][p]
-            }
+            },
+            numbers: |_: usize| -> Numbers<Interval> { unreachable!("it is of points") },
         };
-        let key = turn.key(at(hull(9.0, 58.0)), 0.9);
+        let key = turn.key(&at(hull(9.0, 58.0)), 0.9);
         assert!(key.inf() > 0.85 && key.sup() < 1.0, "{key:?}");
-        let key = turn.key(at(hull(9.0, 58.0)), 4.9);
+        let key = turn.key(&at(hull(9.0, 58.0)), 4.9);
         assert!(key.inf() > 4.85 && key.sup() < 5.0, "{key:?}");
     }
 }

@@ -171,14 +171,18 @@ impl Parts {
             extent,
         } in &self.segments
         {
-            let (axes, points) = (self.axes(extent), extent.points());
-            let of: Vec<usize> = self.places(points, axes).collect();
+            let (points, radii) = (extent.points(), extent.radii());
+            let of = self.unknowns_of_extent(extent);
             if !self.move_exactly(&of, exact) {
                 continue;
             }
             let sign = |time: Interval| {
                 let at = |u: usize| self.place_at(&paths, u, time);
-                extent.sign(|k| self.place(points[k], point(0.0), at), sign_of)
+                let place = |k: usize| match k.checked_sub(points.len()) {
+                    None => self.place(points[k], point(0.0), at),
+                    Some(k) => [at(radii[k]); 3],
+                };
+                extent.sign(place, sign_of)
             };
             let mut last = sign(point(0.0));
             let is_known = last != 0;

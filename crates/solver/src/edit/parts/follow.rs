@@ -6,7 +6,7 @@ use crate::constraint::{Entry, Equation, Form, Product, Role, value};
 use crate::interval::{Interval, Real, hull, point};
 use crate::order::add_new;
 use crate::sets::Joined;
-use crate::system::{Homotopy, Part, Right};
+use crate::system::{Homotopy, Part, Right, Segment};
 use crate::track::arc::{ArcEnd, ArcRun, Figure, Fold};
 use crate::track::certified::arcs;
 use crate::track::{Control, LARGEST_SQUARE, Stop, StopKind};
@@ -236,10 +236,13 @@ impl Parts {
             unknowns.all(|u| local.contains_key(&u))
         };
         let followed = self.followed.iter().filter(|points| is_here(points, 0..d));
-        let segments = self.segments.iter();
-        let segments = segments.filter(|segment| {
-            let extent = &segment.extent;
-            is_here(extent.points(), self.axes(extent))
+        let segments = self.segments.iter().filter(|segment| {
+            let unknowns = self.unknowns_of_extent(&segment.extent);
+            unknowns.iter().all(|u| local.contains_key(u))
+        });
+        let segments = segments.map(|segment| Segment {
+            extent: segment.extent.map(|u| local[&u]),
+            ..*segment
         });
         let mut homotopy = Homotopy::of_part(Part {
             nonzero: self.cut.system.nonzero_in(d, &local),
@@ -251,7 +254,7 @@ impl Parts {
                 .collect(),
             equations: equations.collect(),
             followed: followed.cloned().collect(),
-            segments: segments.cloned().collect(),
+            segments: segments.collect(),
             beside: beside.collect(),
             coordinates: coordinates.map(|u| local.get(u).copied()).collect(),
         });

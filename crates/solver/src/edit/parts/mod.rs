@@ -158,7 +158,7 @@ impl Parts {
         let mut segments = segments(problem, is_same);
         let mut others = None;
         if options.simple {
-            let found = outlines(problem, is_same);
+            let found = outlines(problem, is_same, |object| cut.numbers[object]);
             segments.extend(found.pairs);
             others = Some(found.others);
         }
@@ -256,6 +256,12 @@ impl Parts {
         }
     }
 
+    /// The unknowns that tell whether a line or an arc vanishes, or whether two edges touch.
+    fn unknowns_of_extent(&self, extent: &Extent) -> Vec<usize> {
+        let places = self.places(extent.points(), self.axes(extent));
+        places.chain(extent.radii().iter().copied()).collect()
+    }
+
     fn bound_together(&self) -> Vec<BTreeSet<usize>> {
         let d = self.cut.problem.dimension;
         let blocks = |unknowns: Vec<usize>| {
@@ -264,10 +270,8 @@ impl Parts {
         };
         let senses = self.senses.iter();
         let senses = senses.map(|points| self.places(points, 0..d).collect());
-        let segments = self.segments.iter().map(|segment| {
-            let extent = &segment.extent;
-            self.places(extent.points(), self.axes(extent)).collect()
-        });
+        let segments = self.segments.iter();
+        let segments = segments.map(|segment| self.unknowns_of_extent(&segment.extent));
         let vectors = self.cut.system.nonzero.iter();
         let vectors = vectors.map(|vector| vector.unknowns(d).collect());
         let rows = self

@@ -5,10 +5,11 @@
 
 use super::link::{Frame, Tube};
 use super::piece::{Along, Piece};
+use crate::constraint::{Form, Nonzero};
 use crate::linalg::Vector;
 use crate::order::each_once;
 use crate::places::{Each as _, array};
-use crate::system::{Homotopy, Segment, determinant, simplices};
+use crate::system::{Extent, Homotopy, Segment, determinant, simplices};
 use crate::track::arc::{Figure, Kept, Orientation};
 
 /// A tube is cut into at most 2 to this power pieces to tell a sign.
@@ -33,7 +34,7 @@ pub struct Orientations {
 struct Simplex {
     /// The line or arc, or the two edges.
     segment: Option<Segment>,
-    /// The entries of its points' coordinates, point by point.
+    /// The entries of its points' coordinates, point by point, and of radii behind these.
     entries: [[u32; 3]; 6],
     what: Orientation,
 }
@@ -53,9 +54,17 @@ impl Orientations {
             let unknown = homotopy.coordinate(p, axis);
             unknown.unwrap_or(homotopy.equations + 1) as u32
         };
-        let simplex = |points: Vec<usize>, segment| Simplex {
+        let simplex = |points: Vec<usize>, segment: Option<Segment>| Simplex {
+            entries: {
+                let radii = segment.as_ref().map_or(&[][..], |s| s.extent.radii());
+                array(
+                    |k| match k.checked_sub(points.len()).and_then(|k| radii.get(k)) {
+                        Some(&radius) => [radius as u32; 3],
+                        None => array(|axis| entry(points[k.min(points.len() - 1)], axis)),
+                    },
+                )
+            },
             segment,
-            entries: array(|k| array(|axis| entry(points[k.min(points.len() - 1)], axis))),
             what: Orientation {
                 points,
                 sign: 0,
@@ -157,19 +166,37 @@ impl Orientations {
         simplices.map(|simplex| simplex.what.clone()).collect()
     }
 
-    /// What became of all lines and arcs.
-    pub fn segments(&self) -> Vec<Kept> {
+    /// What became of all lines and arcs. `vanishes`: the vector of which a run could not prove any more that it is not zero, at t; the line of
+    /// which it is the direction is lost there.
+    pub fn segments(&self, vanishes: Option<(&Nonzero, f64)>, homotopy: &Homotopy) -> Vec<Kept> {
         let segments = self.all.iter().filter_map(|simplex| {
             let segment = simplex.segment.as_ref()?;
+            let vanishes = vanishes.filter(|(vector, _)| is_between(vector, segment, homotopy));
+            let lost = simplex.what.lost;
             Some(Kept {
                 object: segment.object,
                 other: segment.other,
                 sign: simplex.what.sign,
-                lost: simplex.what.lost,
+                lost: lost.or(vanishes.map(|(_, t)| (t, t))),
             })
         });
         segments.collect()
     }
+}
+
+/// Whether a vector is that from one end of a line along an axis to the other.
+fn is_between(vector: &Nonzero, segment: &Segment, homotopy: &Homotopy) -> bool {
+    let Extent::Along { ends, .. } = segment.extent else {
+        return false;
+    };
+    (0..homotopy.dimension).all(|axis| {
+        let Form::Difference(a, b) = vector.forms[axis] else {
+            return false;
+        };
+        let [a, b] = [a, b].each(|entry| homotopy.entry(entry));
+        let [from, to] = ends.each(|p| homotopy.coordinate(p, axis));
+        (a, b) == (from, to) || (a, b) == (to, from) || a == b && from == to
+    })
 }
 
 impl Simplex {

@@ -279,15 +279,19 @@ where
         let t = tracker.reached();
         let steps = tracker.steps + usize::from(tracker.has_set_out);
         let arc = tracker.arc.as_mut().expect("a run to t = 1");
+        let mut vanishes = None;
         let end = match (result, arc.end.take()) {
             (Ok(()), Some(end)) => end,
             (Ok(()), None) => {
                 ArcEnd::Stopped(Stop::new(StopKind::Bug, "it ended nowhere: a bug in krawl"))
             }
-            (Err(halt), _) => match halt.came_to {
-                CameTo::Stuck { is_singular: true } => ArcEnd::Passes(halt.stop),
-                _ => ArcEnd::Stopped(halt.stop),
-            },
+            (Err(halt), _) => {
+                vanishes = halt.vanishes;
+                match halt.came_to {
+                    CameTo::Stuck { is_singular: true } => ArcEnd::Passes(halt.stop),
+                    _ => ArcEnd::Stopped(halt.stop),
+                }
+            }
         };
         let t = match &end {
             ArcEnd::Reached(_) => (1.0, 1.0),
@@ -311,7 +315,11 @@ where
             alone_within,
             last: last[..tracker.equations.m].to_vec(),
             orientations: arc.orientations.account(),
-            segments: arc.orientations.segments(),
+            segments: {
+                let homotopy = &*tracker.homotopy;
+                let vector = vanishes.map(|k: usize| (&homotopy.tail.nonzero[k], t.0));
+                arc.orientations.segments(vector, homotopy)
+            },
             beside: arc.beside.as_ref().map_or(Vec::new(), Besides::account),
             end,
             steps,

@@ -17,6 +17,8 @@ use crate::track::{Control, Options, Status, Stop, StopKind};
 pub(super) struct Halt {
     pub stop: Stop,
     pub came_to: CameTo,
+    /// The vector, by number, that could not be proved not to vanish at the smallest step, if that was what failed.
+    pub vanishes: Option<usize>,
 }
 
 /// What a run had come to when it ended, as far as one can see.
@@ -39,6 +41,7 @@ impl From<Stop> for Halt {
         Halt {
             stop,
             came_to: CameTo::Nothing,
+            vanishes: None,
         }
     }
 }
@@ -213,7 +216,11 @@ impl<const N: usize, T: Test<N>> Tracker<'_, N, T> {
     /// A run that ends at the last tube.
     pub(super) fn halt(&self, kind: StopKind, what: String, came_to: CameTo) -> Halt {
         let stop = Stop::new(kind, format!("{what}, {}", self.place()));
-        Halt { stop, came_to }
+        Halt {
+            stop,
+            came_to,
+            vanishes: None,
+        }
     }
 
     /// The end of the path, if that is where the run ended; otherwise why it ended again.

@@ -17,6 +17,7 @@ impl<const N: usize, T: Test<N>> Tracker<'_, N, T> {
             return Err(Halt {
                 stop: Stop::new(StopKind::Sketch, no_direction(pivots)),
                 came_to: CameTo::Stuck { is_singular: true },
+                vanishes: None,
             });
         }
         self.first_normal.copy_from_slice(&at_sketch.normal);

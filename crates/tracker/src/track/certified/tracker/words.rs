@@ -44,6 +44,10 @@ impl<const N: usize, T: Test<N>> Tracker<'_, N, T> {
         let is_singular = self.is_singular();
         let t = self.now.local.z[0][self.equations.m];
         let remark = self.homotopy.remark_on_lengths(t);
+        let vanishes = match rejection {
+            Rejection::Undecided(Doubt::Vanishes(vector)) => Some(vector),
+            _ => None,
+        };
         let kind = match rejection {
             _ if is_singular => StopKind::Singular,
             Rejection::Undecided(Doubt::Sign(_) | Doubt::Vanishes(_)) => StopKind::Undefined,
@@ -60,6 +64,7 @@ impl<const N: usize, T: Test<N>> Tracker<'_, N, T> {
         Halt {
             stop: Stop::new(kind, words),
             came_to: CameTo::Stuck { is_singular },
+            vanishes,
         }
     }
 
@@ -81,12 +86,13 @@ impl<const N: usize, T: Test<N>> Tracker<'_, N, T> {
         Halt {
             stop: Stop::new(kind, words),
             came_to: CameTo::Stuck { is_singular },
+            vanishes: None,
         }
     }
 
     /// The reason why a run ends, after the words for a figure that is not rigid at t = 1, if no step can be proved and that is
     /// what the path comes to.
-    pub(super) fn with_flexibility(&self, Halt { stop, came_to }: Halt) -> Stop {
+    pub(super) fn with_flexibility(&self, Halt { stop, came_to, .. }: Halt) -> Stop {
         match came_to {
             CameTo::Stuck { .. } => match self.flexibility() {
                 Some(words) => Stop::new(StopKind::Flexible, format!("{words}; {stop}")),
