@@ -300,6 +300,7 @@ mod tests {
             t: (2.0, 2.0),
             kind: EndKind::Infinite,
             stop: None,
+            what: String::new(),
             reason: "somehow".into(),
             away: None,
             points: Vec::new(),
