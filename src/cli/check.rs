@@ -3,8 +3,9 @@
 use super::{BAD_INPUT, CLOSED, OVER, input, output};
 use crate::report::names;
 use krawl::blocks::{
-    Account, Census, Finding, MOST_POINTS, Surplus, Why, clusters, pinned, surplus,
+    Account, Census, Finding, MOST_POINTS, Seen, Singular, Surplus, Why, clusters, pinned, surplus,
 };
+use krawl::constraint::fix_frame;
 use krawl::edit::{Decomposition, Standing, TooMany};
 use krawl::import::{self, Format, Imported, Listed, Skeleton};
 use krawl::plan::Plan;
@@ -70,18 +71,19 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
             return Ok(exit_code(&loose.census, BAD_INPUT));
         }
     };
-    let mut text = describe(&problem, None) + &centres;
+    let mut census = surplus(&problem)?;
+    if problem.is_distances_only() {
+        // As many as are needed, of which none follows from others whatever the lengths are.
+        census.surplus.clear();
+    }
+    let mut text = describe(&problem, None, &census) + &centres;
     text += &remarks_in_words(&problem);
-    let census = match problem.is_distances_only() {
-        true => Census::default(),
-        false => surplus(&problem).unwrap_or_default(),
-    };
     text += &surplus_in_words(&census);
     let code = exit_code(&census, CLOSED);
     text += &match problem.is_absolute() {
-        true => blocks_in_words(&Decomposition::of(&problem)),
+        true => blocks_in_words(&decomposed(&problem, &census)),
         false if problem.is_distances_only() => clusters_in_words(&problem),
-        false => held_in_words(&problem),
+        false => held_in_words(&problem, &census),
     };
     if !problem.is_distances_only() {
         text += "construction plan\n  none in closed form: those are for distances between points alone; --space reduced orders \
@@ -95,9 +97,29 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
 
 /// The exit code of what was read, where nothing is one too many this one.
 fn exit_code(census: &Census, code: u8) -> u8 {
-    match census.surplus.is_empty() {
-        true => code,
-        false => OVER,
+    match too_many(census) {
+        0 => code,
+        _ => OVER,
+    }
+}
+
+/// How many constraints are too many, wholly or in part; objects are no constraints.
+fn too_many(census: &Census) -> usize {
+    census.surplus.iter().filter(|one| !one.is_object).count()
+}
+
+/// How a problem in its own frame falls apart; what is told of its drawing is what was seen at figures near it.
+fn decomposed(problem: &Problem, census: &Census) -> Result<Decomposition, String> {
+    let mut found = Decomposition::of(problem)?;
+    of_census(&mut found, census);
+    Ok(found)
+}
+
+/// Takes what a census says of the drawing in place of what is seen at the drawing alone.
+fn of_census(found: &mut Decomposition, census: &Census) {
+    let is_too_many = |singular: &Singular| singular.seen == Seen::TooMany;
+    if census.singular.is_some() || found.singular.as_ref().is_some_and(is_too_many) {
+        found.singular.clone_from(&census.singular);
     }
 }
 
@@ -109,6 +131,10 @@ fn surplus_in_words(census: &Census) -> String {
     }
     for one in &census.surplus {
         text += &format!("  {}\n", one.in_words());
+    }
+    let has_cure = |one: &&Surplus| one.cures.as_ref().is_some_and(|cures| !cures.is_empty());
+    if census.surplus.iter().filter(has_cure).count() > 1 {
+        text += "  each of these needs a cure of its own: once one is cured, check again\n";
     }
     text
 }
@@ -142,13 +168,9 @@ fn describe_sketches(file: &Path, which: &input::Which) -> Result<(String, u8), 
     let (imported, _) = input::import(file, which)?;
     let problem = &imported.problem;
     let mut text = format!("{}, read as\n", problem.name);
-    let census = surplus(problem).unwrap_or_default();
-    let mut blocks = Decomposition::of(problem);
-    // What is one too many is told by `surplus`.
-    if let (Ok(found), false) = (&mut blocks, census.surplus.is_empty()) {
-        found.account.left_out.clear();
-    }
-    text += &describe(problem, Some((&blocks, &census)));
+    let census = surplus(problem)?;
+    let blocks = decomposed(problem, &census);
+    text += &describe(problem, Some(&blocks), &census);
     text += &surplus_in_words(&census);
     let kept = Account::of(problem, 0).kept_in_words();
     if !kept.is_empty() {
@@ -215,7 +237,7 @@ impl Loose {
         let (found, standing) = Decomposition::led(&problem).ok()?;
         Some(Loose {
             fault: fault.to_string(),
-            census: surplus(&problem).unwrap_or_default(),
+            census: surplus(&problem).ok()?,
             problem,
             found,
             standing,
@@ -279,38 +301,31 @@ impl Loose {
 
     /// What is wrong, what was understood, what is free, and the blocks.
     fn in_words(&self) -> String {
-        let taken = match self.standing.is_taken {
-            true => "; `krawl solve` and `krawl edit` take it as it is",
-            false => "",
+        // Of figures without a frame of their own, and of fixed directions, `solve` takes no loose ones.
+        let is_solved =
+            fix_frame(&self.problem) && self.problem.fixed_directions().next().is_none();
+        let taken = match (self.standing.is_taken, is_solved) {
+            (true, true) => "; `krawl solve` and `krawl edit` take it as it is",
+            (true, false) => "; `krawl edit` takes it as it is",
+            (false, _) => "",
         };
         let fault = self.decide(&self.fault);
         let mut text = format!("{}: not in order: {fault}{taken}\n", self.problem.name);
         text += &in_rows(&understood(&self.problem));
-        text += &in_rows(&freedom(&self.census));
+        text += &in_rows(&[freedom(&self.census)]);
         text += &surplus_in_words(&self.census);
         let mut found = self.found.clone();
-        let left_out = std::mem::take(&mut found.account.left_out);
-        text += &decomposition_in_words(&found);
-        for (of, why) in [
-            (Why::Follows, "as they follow from the others"),
-            (Why::NothingNew, "as they say nothing new at the sketch"),
-        ] {
-            let those = left_out.iter().filter(|one| one.why == of);
-            let names: Vec<&str> = those.map(|one| one.name.as_str()).collect();
-            if !names.is_empty() {
-                text += &format!("  left out of the blocks, {why}: {}\n", names.join(", "));
-            }
-        }
-        text
+        of_census(&mut found, &self.census);
+        text + &decomposition_in_words(&found)
     }
 }
 
 /// How a figure up to motions falls apart, once its reference is held.
-fn held_in_words(problem: &Problem) -> String {
+fn held_in_words(problem: &Problem, census: &Census) -> String {
     let Some(held) = pinned(problem) else {
         return String::new();
     };
-    let text = blocks_in_words(&Decomposition::of(&held));
+    let text = blocks_in_words(&decomposed(&held, census));
     text.replacen("blocks", "blocks, with the reference held", 1)
 }
 
@@ -477,11 +492,11 @@ fn understood(problem: &Problem) -> Vec<(&'static str, String)> {
 /// What is in a problem; with `blocks` of one that has not been checked, of which is said first what is free.
 fn describe(
     problem: &Problem,
-    blocks: Option<(&Result<Decomposition, String>, &Census)>,
+    blocks: Option<&Result<Decomposition, String>>,
+    census: &Census,
 ) -> String {
-    let (blocks, census) = blocks.unzip();
     let mut rows = understood(problem);
-    let (free, distances) = (problem.free_coordinates(), problem.distances.len());
+    let free = problem.free_coordinates();
     for (name, value) in &problem.parameters {
         let computed = value
             .expression()
@@ -491,12 +506,7 @@ fn describe(
     if !problem.points.is_empty() {
         rows.push(("free coordinates", free.to_string()));
     }
-    if problem.is_distances_only() {
-        rows.push((
-            "degrees of freedom",
-            format!("0 ({free} free coordinates, {distances} independent distances)"),
-        ));
-    } else if !matches!(blocks, Some(Err(_))) {
+    if !problem.is_distances_only() && !matches!(blocks, Some(Err(_))) {
         let (unknowns, equations) = krawl::constraint::size(problem);
         rows.push((
             "equations",
@@ -509,7 +519,7 @@ fn describe(
             },
         ));
     }
-    rows.extend(census.into_iter().flat_map(freedom));
+    rows.push(freedom(census));
     if !problem.points.is_empty() {
         rows.push(frame(problem));
     }
@@ -525,29 +535,29 @@ fn describe(
         rows.push(("bend", format!("{bend}, c = {c}{remark}")));
     }
 
-    let state = match blocks {
+    let surplus = too_many(census);
+    let words = match blocks {
         None => "the input is in order".to_owned(),
-        Some(Ok(found)) => {
-            let surplus = census.map_or(0, |census| census.surplus.len());
-            let words = freedom_of_sketch_in_words(found);
-            let too_many = counted(surplus, "constraint");
-            match (surplus, words.as_str()) {
-                (0, _) => words,
-                (_, "the input is in order") => format!("over-constrained: {too_many} too many"),
-                _ => format!("{words}; over-constrained: {too_many} too many"),
-            }
-        }
+        Some(Ok(found)) => freedom_of_sketch_in_words(found),
         Some(Err(fault)) => format!("not in order: {fault}"),
+    };
+    let too_many = || {
+        format!(
+            "over-constrained: {} too many",
+            counted(surplus, "constraint")
+        )
+    };
+    let state = match (surplus, words.as_str()) {
+        (0, _) => words,
+        (_, "the input is in order") => too_many(),
+        _ => format!("{words}; {}", too_many()),
     };
     format!("{}: {state}\n{}", problem.name, in_rows(&rows))
 }
 
-/// In how many ways a sketch can still move, as a row of text.
-fn freedom(census: &Census) -> Vec<(&'static str, String)> {
-    let freedom = census.freedom.iter();
-    freedom
-        .map(|freedom| ("degrees of freedom", freedom.to_string()))
-        .collect()
+/// In how many ways a figure can still move, as a row of text.
+fn freedom(census: &Census) -> (&'static str, String) {
+    ("degrees of freedom", census.freedom.in_words())
 }
 
 /// Where coordinates are counted from.

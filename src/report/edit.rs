@@ -362,7 +362,7 @@ pub fn account_in_words(account: &Account) -> String {
     out
 }
 
-/// Whether a sketch is in order, or what of it can still move and what seems to be too much.
+/// Whether a sketch is in order, or what of it can still move.
 pub fn freedom_of_sketch_in_words(found: &Decomposition) -> String {
     let mut parts = Vec::new();
     let held = found.account.names_held();
@@ -370,13 +370,6 @@ pub fn freedom_of_sketch_in_words(found: &Decomposition) -> String {
         parts.push(format!(
             "under-constrained: it can still move (edits hold {} where they are)",
             list(&held, LISTED)
-        ));
-    }
-    let (_, seem) = left_out(&found.account);
-    if !seem.is_empty() && found.singular.is_none() {
-        parts.push(format!(
-            "over-constrained: {} seem to follow from the others",
-            list(&seem, LISTED)
         ));
     }
     if let Some(singular) = &found.singular {
@@ -413,8 +406,14 @@ pub fn decomposition_in_words(found: &Decomposition) -> String {
     let (follow, seem) = left_out(&found.account);
     for (what, names) in [
         ("free (edits hold them where they are)", held),
-        ("follow from the others, proved", follow),
-        ("seem to follow from the others", seem),
+        (
+            "left out of the blocks, as they follow from the others, proved",
+            follow,
+        ),
+        (
+            "left out of the blocks, as they say nothing new where it is drawn (seen in floats)",
+            seem,
+        ),
     ] {
         if !names.is_empty() {
             out += &format!("  {what}: {}\n", list(&names, LISTED));

@@ -22,4 +22,5 @@ mod real_sketches;
 mod singular_drawings;
 mod sketches;
 mod tolerance;
+mod too_many;
 mod whole_turns;

@@ -44,7 +44,7 @@ const TAKEN: &str = "`krawl solve` and `krawl edit` take it as it is";
 #[test]
 fn contradictions_are_called_so() {
     let streams = check("place", &rectangle("x = [[\"a\", 5]]"));
-    let words = "any of `x: a, 5`, `fixed: a` contradicts the others, remove one of them";
+    let words = "any of `x: a, 5`, `fixed: a` contradicts the others, remove `x: a, 5`";
     both_say(&streams, words);
     assert!(!streams[1].contains(TAKEN), "{}", streams[1]);
     // Of a rectangle's sides of 4 and 3.

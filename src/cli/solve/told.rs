@@ -11,9 +11,9 @@ use crate::cli::output::{self, Beside};
 use crate::cli::results::Results;
 use crate::cli::take::{Candidates, Taken};
 use crate::cli::{BAD_INPUT, CLOSED, LIMIT, OPEN, STOPPED};
-use krawl::blocks::clusters;
+use krawl::blocks::{Seen, clusters};
 use krawl::complete::{Among, Tested, among};
-use krawl::edit::{Alone, alone};
+use krawl::edit::{Alone, Decomposition, alone};
 use krawl::problem::Problem;
 use krawl::report::document::{AloneEnding, Beside as More, Solve};
 use krawl::report::{
@@ -45,6 +45,19 @@ pub(super) fn worse(one: u8, other: u8) -> u8 {
     }
 }
 
+/// Says that a drawing in its own frame is singular, which the blocks tell of those that are solved by them.
+fn say_if_singular(problem: &Problem) {
+    let found = match problem.is_absolute() {
+        true => Decomposition::of(problem).ok(),
+        false => None,
+    };
+    let singular = found.and_then(|found| found.singular);
+    if let Some(singular) = singular.filter(|singular| singular.seen == Seen::Regular) {
+        let place = singular.place_in_a_sentence();
+        output::print(&format!("{}: {place}.\n\n", problem.name));
+    }
+}
+
 impl Told<'_> {
     /// Answers what is asked of the file of a number. Whether the rest is not wanted any more.
     pub fn answer(&mut self, k: usize, asked: &Asked, file: &Path) -> Result<bool, String> {
@@ -53,6 +66,9 @@ impl Told<'_> {
         arguments.measured.of(problem)?;
         if self.results.is_told() && !arguments.summary {
             say_if_it_moves(problem);
+            if !asked.is_by_blocks {
+                say_if_singular(problem);
+            }
         }
         let gap = match k == 0 || arguments.summary {
             true => "",

@@ -163,10 +163,11 @@ impl Cut {
         let floats = Floats::new(&system, equations, unit);
         let mut moved_rights: Vec<(usize, Vec<Real>)> = Vec::new();
         let (mut singular, mut drawn) = (None, None);
-        if let Drawn::Singular { rows, off } = look(&floats, &structural, (&at, &choice), way) {
+        if let Drawn::Singular { rows, seen, off } = look(&floats, &structural, (&at, &choice), way)
+        {
             let name = |&row: &usize| owners[system.rows[row].index].name(&problem);
             let names = rows.iter().map(name);
-            let mut place = Singular::new(&problem, &system, &rows, names);
+            let mut place = Singular::new(&problem, &system, &rows, (names, seen));
             if let Some(off) = off {
                 choice = Choice::new(&system, &off, &later, kept, COARSE);
                 place.moved = Some(system.moved(&off, problem.dimension, unit));

@@ -5,6 +5,7 @@
 //! floats, and nothing that is proved rests on it: a drawing that is found to be singular is moved off that place, and led to
 //! its dimensions from there, by proof as from any other. The constraints stay what they are.
 
+use super::tried::Tried;
 use super::{Choice, FINE, Row, System};
 use crate::constraint::{Equation, Role};
 use crate::equations::{Form, left_side, slopes};
@@ -14,15 +15,21 @@ use crate::map::Map;
 use crate::order::each_once;
 use crate::random::Random;
 use crate::rational::Rational;
+use nalgebra::DVector;
 
+/// A row of which less is new, as a part of it, does not clearly say something new.
+pub(super) const CLEAR: f64 = 1e-4;
 /// More unknowns are not looked at: it would take seconds.
 pub(crate) const MANY: usize = 250;
 /// How far the drawing is moved before it is led back to what is no dimension, as a part of its unit.
-const MOVED: f64 = 0.02;
+pub(super) const MOVED: f64 = 0.02;
 /// Ways to move it that are tried before it is taken for regular.
-const SEEDS: u64 = 3;
+pub(super) const SEEDS: u64 = 3;
 /// A figure that misses its equations by less meets them.
-const MET: f64 = 1e-9;
+pub(super) const MET: f64 = 1e-9;
+
+/// Rows that are combinations of others, each with those others and their parts in it.
+pub(super) type Circuits = Vec<(usize, Vec<(usize, f64)>)>;
 
 /// The equations of a sketch in floats, with its unknowns in a unit in which it is of size about 1.
 pub(crate) struct Floats<'a> {
@@ -31,14 +38,30 @@ pub(crate) struct Floats<'a> {
     target: Vec<f64>,
 }
 
+/// What was seen near a drawing at which constraints depend on each other.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Seen {
+    /// At figures near it that meet all constraints they do not depend on each other.
+    Regular,
+    /// At figures near it they do, though one of them at least does not follow from the others.
+    FirstOrder,
+    /// At figures near it they do, and follow from each other: they are too many.
+    TooMany,
+    /// No figure was found near it. At places that meet what is no dimension they do not.
+    NoFigure,
+}
+
 /// A drawing, as it was found.
 pub(crate) enum Drawn {
-    /// As much depends on each other as at figures near it, or it is too large to be looked at.
+    /// As much depends on each other as at figures near it that meet what is no dimension, it is a figure and what depends on
+    /// others there follows from them, or it is too large to be looked at.
     Regular,
     /// It is singular.
     Singular {
-        /// The rows that depend on each other there, though not at figures near it.
+        /// The rows that depend on each other there.
         rows: Vec<usize>,
+        /// What was seen of them near it.
+        seen: Seen,
         /// A place near it, for each unknown, that is not singular, and meets what is no dimension; `None`: the drawing meets
         /// its dimensions, or figures near it that do are singular too.
         off: Option<Vec<f64>>,
@@ -79,9 +102,79 @@ impl<'a> Floats<'a> {
         rows
     }
 
+    /// Of rows in this order those that say something new after those before, more than `pivot` of each, and each other one with
+    /// the rows of which it is a combination, all rows scaled to length 1: by the method of Gram and Schmidt, each row twice.
+    pub fn independent(&self, order: &[usize], at: &[f64], pivot: f64) -> (Vec<usize>, Circuits) {
+        const PART: f64 = 1e-6;
+        let (jacobian, _) = self.linearise(order, at);
+        // Directions of length 1 at right angles to each other, and of which of the rows taken each is a combination.
+        let mut basis: Vec<(DVector<f64>, Vec<f64>)> = Vec::new();
+        let (mut taken, mut circuits) = (Vec::new(), Vec::new());
+        for (k, &row) in order.iter().enumerate() {
+            let mut rest: DVector<f64> = jacobian.row(k).transpose();
+            let mut of = vec![0.0; taken.len()];
+            for _ in 0..2 {
+                for (direction, parts) in &basis {
+                    let along = direction.dot(&rest);
+                    if along != 0.0 {
+                        rest.axpy(-along, direction, 1.0);
+                        for (sum, part) in of.iter_mut().zip(parts) {
+                            *sum -= along * part;
+                        }
+                    }
+                }
+            }
+            let size = rest.norm();
+            if size > pivot {
+                of.push(1.0);
+                of.iter_mut().for_each(|part| *part /= size);
+                basis.push((rest / size, of));
+                taken.push(row);
+            } else {
+                let all = taken.iter().zip(&of);
+                let circuit = all
+                    .filter(|(_, part)| part.abs() > PART)
+                    .map(|(&row, &part)| (row, part));
+                circuits.push((row, circuit.collect()));
+            }
+        }
+        (taken, circuits)
+    }
+
     /// By how much a place misses some rows at most, about as far as unknowns would have to move.
     pub fn missed(&self, rows: &[usize], at: &[f64]) -> f64 {
         self.linearise(rows, at).1.amax()
+    }
+
+    /// The unknowns of a row.
+    pub fn unknowns_of(&self, row: usize) -> &[usize] {
+        &self.system.rows[row].unknowns
+    }
+
+    /// By how much the left-hand side of a row, as it stands, is too large at a place.
+    pub fn value(&self, row: usize, at: &[f64]) -> f64 {
+        self.system.rows[row].evaluate(at, |_, _| {}) - self.target[row]
+    }
+
+    /// The length of a row's gradient at a place.
+    pub fn steepness(&self, row: usize, at: &[f64]) -> f64 {
+        self.system.rows[row].steepness(at).1
+    }
+
+    /// Whether a place misses a row.
+    pub fn misses(&self, row: usize, at: &[f64]) -> bool {
+        self.value(row, at).abs() > MET * self.steepness(row, at).max(1.0)
+    }
+
+    /// Whether lengths and radii are positive at a place.
+    pub fn is_proper(&self, at: &[f64]) -> bool {
+        let mut all = self.system.unknowns.iter().zip(at);
+        all.all(|(unknown, &x)| unknown.role != Role::Positive || x > 0.0)
+    }
+
+    /// Which rows say something new at a place.
+    pub fn choice(&self, at: &[f64]) -> Choice {
+        Choice::new(self.system, at, |_| 0, |_| 0, FINE)
     }
 
     /// A place that meets some rows, by Newton's method with least changes; lengths and radii are positive there.
@@ -94,10 +187,7 @@ impl<'a> Floats<'a> {
 
     /// The same of rows that are linearised so.
     pub fn zero(&self, at: Vec<f64>, linearise: &dyn Fn(&[f64]) -> Linear) -> Option<Vec<f64>> {
-        let at = nearest_zero(at, 1e-10, linearise)?;
-        let all = self.system.unknowns.iter().zip(&at);
-        let mut positive = all.filter(|(unknown, _)| unknown.role == Role::Positive);
-        positive.all(|(_, &x)| x > 0.0).then_some(at)
+        nearest_zero(at, 1e-10, linearise).filter(|at| self.is_proper(at))
     }
 }
 
@@ -112,17 +202,12 @@ pub(crate) fn look(
     if choice.redundant.is_empty() || at.len() > MANY {
         return Drawn::Regular;
     }
-    let rank = |at: &[f64]| {
-        Choice::new(floats.system, at, |_| 0, |_| 0, FINE)
-            .used
-            .len()
-    };
+    let rank = |at: &[f64]| floats.choice(at).used.len();
     let here = choice.used.len();
     let all: Vec<usize> = (0..structural.len()).collect();
     let kept: Vec<usize> = all.iter().copied().filter(|&r| structural[r]).collect();
-    let circuits = choice.redundant.iter();
-    let rows = circuits.flat_map(|&row| floats.circuit(&choice.used, row, at));
-    let rows = each_once(rows);
+    let circuit = |row: usize| floats.circuit(&choice.used, row, at);
+    let mut rows = each_once(choice.redundant.iter().copied().flat_map(circuit));
     let of = |row: &usize| &floats.system.rows[*row].unknowns;
     let unknowns = each_once(rows.iter().flat_map(of).copied());
     let beside = |way: u64| {
@@ -137,17 +222,44 @@ pub(crate) fn look(
     let Some(off) = [way].into_iter().chain(0..2 * SEEDS).find_map(beside) else {
         return Drawn::Regular;
     };
-    let rows: Vec<usize> = rows.into_iter().collect();
-    if floats.missed(&all, at) < MET {
-        return Drawn::Singular { rows, off: None };
+    let is_met = floats.missed(&all, at) < MET;
+    let ways = (0..2 * SEEDS).filter_map(beside);
+    let figures: Vec<Vec<f64>> = ways.filter_map(|at| floats.meet(&all, at)).collect();
+    let clear = |at: &[f64]| floats.independent(&all, at, CLEAR).0.len();
+    let clear_here = clear(at);
+    let seen = match figures.first() {
+        _ if figures.iter().any(|figure| clear(figure) > clear_here) => Seen::Regular,
+        None => Seen::NoFigure,
+        Some(figure) => {
+            // Those that do not follow from the others at figures near it.
+            let mut kept = all.clone();
+            let single = choice.redundant.iter().copied().filter(|&row| {
+                kept.retain(|&other| other != row);
+                let follows = matches!(floats.tried(row, &kept, figure), Tried::Holds);
+                if !follows {
+                    kept.push(row);
+                }
+                !follows
+            });
+            let single: Vec<usize> = single.collect();
+            match single.is_empty() {
+                true => Seen::TooMany,
+                false => {
+                    rows = each_once(single.into_iter().flat_map(circuit));
+                    Seen::FirstOrder
+                }
+            }
+        }
+    };
+    if is_met && seen == Seen::TooMany {
+        return Drawn::Regular;
     }
     // Where dimensions themselves make equations depend on each other, they do so at the figures that meet them, too.
-    let figures = (0..2 * SEEDS).filter_map(|way| floats.meet(&all, beside(way)?));
-    let ranks: Vec<usize> = figures.map(|figure| rank(&figure)).collect();
-    let as_singular = ranks.iter().all(|&rank| rank <= here) && !ranks.is_empty();
+    let as_singular = figures.iter().all(|figure| rank(figure) <= here) && !figures.is_empty();
     Drawn::Singular {
         rows,
-        off: (!as_singular).then_some(off),
+        seen,
+        off: (!is_met && !as_singular).then_some(off),
     }
 }
 

@@ -1,6 +1,7 @@
 //! What is said of a singular drawing.
 
 use super::System;
+use super::drawn::Seen;
 use crate::order::{InOrder, add_new};
 use crate::places::Each as _;
 use crate::problem::{Problem, list};
@@ -10,11 +11,13 @@ use std::collections::BTreeSet;
 /// Names that are listed before "and n more".
 const LISTED: usize = 8;
 
-/// A drawing at which constraints depend on each other that do not at figures near it, as far as floats tell.
+/// A drawing at which constraints depend on each other, as far as floats tell.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Singular {
     /// What people call these constraints.
     pub constraints: Vec<String>,
+    /// What was seen of them near the drawing.
+    pub seen: Seen,
     /// Points on one line there, or in space in one plane, by name, the largest such sets first.
     pub flat: Vec<Vec<String>>,
     /// Whether the points are those of the plane.
@@ -28,17 +31,18 @@ pub struct Singular {
 }
 
 impl Singular {
-    /// Of the rows that depend on each other; `names`: whose they are.
+    /// Of the rows that depend on each other; `names`: whose they are, and what was seen of them.
     pub(crate) fn new(
         problem: &Problem,
         system: &System,
         rows: &[usize],
-        names: impl Iterator<Item = String>,
+        (names, seen): (impl Iterator<Item = String>, Seen),
     ) -> Self {
         let mut constraints: Vec<String> = Vec::new();
         names.for_each(|name| add_new(&mut constraints, name));
         Singular {
             constraints,
+            seen,
             flat: flat(problem, system, rows),
             dimension: problem.dimension,
             moved: None,
@@ -56,18 +60,35 @@ impl Singular {
             format!("{} are {line} in it, and ", list(set, LISTED))
         });
         let sets: String = sets.collect();
-        format!(
-            "the drawing is singular: {sets}{} depend on each other there, as they do not at figures near it (seen in floats)",
-            list(&self.constraints, LISTED)
-        )
+        let names = list(&self.constraints, LISTED);
+        let is_singular = match self.seen {
+            Seen::TooMany => "",
+            _ => "the drawing is singular: ",
+        };
+        let near = match self.seen {
+            Seen::Regular => "there, as they do not at figures near it (seen in floats)",
+            Seen::FirstOrder => "there, to first order only (seen in floats)",
+            Seen::TooMany => {
+                "in the drawing and at figures near it: some of them are too many (seen in floats; `krawl check` names these)"
+            }
+            Seen::NoFigure => {
+                "there, as they do not at places near it that meet all but dimensions (seen in floats; no figure was found near it)"
+            }
+        };
+        format!("{is_singular}{sets}{names} depend on each other {near}")
+    }
+
+    /// The same with a capital letter.
+    pub fn place_in_a_sentence(&self) -> String {
+        let place = self.place_in_words();
+        let mut letters = place.chars();
+        let first = letters.next().map(|c| c.to_ascii_uppercase());
+        first.into_iter().chain(letters).collect()
     }
 
     /// What became of it, in sentences.
     pub fn in_words(&self) -> String {
-        let place = self.place_in_words();
-        let mut letters = place.chars();
-        let first = letters.next().map(|c| c.to_ascii_uppercase());
-        let place: String = first.into_iter().chain(letters).collect();
+        let place = self.place_in_a_sentence();
         let Some(moved) = self.moved else {
             return format!(
                 "{place}. It meets its dimensions, or figures that do are as singular, so it was not moved off that place; \

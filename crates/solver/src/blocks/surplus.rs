@@ -1,24 +1,26 @@
 //! Which constraints are one too many, each with the few that it depends on.
 //!
-//! All equations are looked at, those of coincidences too, at the drawing (moved off where it is singular). They are taken in an
-//! order in which what can be removed least comes first: what arcs and other objects are, what is fixed, coincidences,
-//! other constraints without a number, equalities, and last dimensions, each kind in the order of the file. One that says
-//! nothing new after those before is surplus, and the smallest set of these that it depends on is told with it. So far these are
-//! floats. Whether it follows or contradicts is proved where an identity tells it, and otherwise seen at the figure near the
-//! drawing that meets the rest.
+//! All equations are looked at, those of coincidences too, at a figure near the drawing (`near.rs`). They are taken in an order in
+//! which what can be removed least comes first: what arcs and other objects are, what is fixed, coincidences, other constraints
+//! without a number, equalities, and last dimensions, each kind in the order of the file. One that says nothing new after those
+//! before is surplus if an identity tells so, or if it is seen to hold at figures moved from that one along which the others are met
+//! (`tried.rs`): to first order at one figure is not enough. The set that it depends on is told with it. What is no identity is
+//! floats: whether it follows or contradicts is then seen at that figure.
 
 use super::account::half_digit;
-use super::choose::PIVOT;
+use super::cure::cures;
 use super::cut::straight;
-use super::drawn::{Drawn, Floats, look};
+use super::drawn::{Floats, Seen};
 use super::follows::{Given, combination};
+use super::freedom::Freedom;
+use super::near::{LARGE, Near, What};
+use super::singular::Singular;
 use super::whose::Whose;
-use super::{Choice, FINE, LEAST_PART, System};
+use super::{LEAST_PART, System};
 use crate::interval::{enclose_rational, point};
-use crate::order::{InOrder, add_new};
+use crate::order::{InOrder, add_new, each_once};
 use crate::problem::{Problem, list};
 use crate::system::typical_length;
-use nalgebra::DVector;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// More equations or unknowns are not looked at: it would take seconds.
@@ -28,17 +30,22 @@ const SMALL: usize = 60;
 /// Names that are listed before "and n more".
 const LISTED: usize = 12;
 
-/// A constraint that is one too many.
+/// A constraint, or what an object is, of which some equations are too many.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Surplus {
     /// What people call it.
     pub name: String,
+    /// Whether an object says it, which is not to be removed.
+    pub is_object: bool,
     /// Whether others say only a part of what it says.
     pub in_part: bool,
-    /// The other constraints of the smallest set that depends on each other: any one of these may be removed as well.
+    /// The other constraints of a small set that depends on each other.
     pub others: Vec<String>,
     /// What belongs to that set besides: arcs, fixed points, coincidences.
     pub besides: Vec<String>,
+    /// Those of all these that can be removed as a whole, each by itself, without the figure having more freedom, itself first; `None`:
+    /// that is not known.
+    pub cures: Option<Vec<String>>,
     /// How it stands to the others.
     pub finding: Finding,
 }
@@ -70,16 +77,18 @@ pub enum Finding {
 }
 
 /// What a problem has too much and too little of.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Census {
-    /// In how many ways it can still move; `None`: it was not looked at, or is singular where it is drawn.
-    pub freedom: Option<usize>,
-    /// Constraints that are one too many.
+    /// In how many ways it can still move.
+    pub freedom: Freedom,
+    /// Constraints and objects of which something is too much.
     pub surplus: Vec<Surplus>,
+    /// Constraints that depend on each other at a figure near the drawing, though none of them follows from others.
+    pub singular: Option<Singular>,
 }
 
-/// The constraints that are one too many, in the order in which they are found to be so. At a figure that is singular by itself nothing is
-/// said, and nothing of very large ones.
+/// The constraints that are one too many, in the order in which they are found to be so. Of what depends on each other only to first
+/// order at one figure, and of very large ones, nothing is said.
 ///
 /// # Errors
 /// What is wrong with the problem, in words.
@@ -89,18 +98,13 @@ pub fn surplus(problem: &Problem) -> Result<Census, String> {
     let system = System::new(&problem, &lowered, |_| true);
     let width = system.unknowns.len();
     if system.rows.len().max(width) > MANY {
-        return Ok(Census::default());
+        let why = format!("there are more than {MANY} unknowns or equations");
+        return Ok(Census {
+            freedom: Freedom::open(&problem, &why),
+            surplus: Vec::new(),
+            singular: None,
+        });
     }
-    // A figure that nothing holds in its place moves and turns as a whole, too.
-    let d = problem.dimension;
-    let motions = match problem.is_absolute() {
-        true => 0,
-        false => d * (d + 1) / 2,
-    };
-    let census = |rank: usize, surplus: Vec<Surplus>| Census {
-        freedom: Some((width - rank).saturating_sub(motions)),
-        surplus,
-    };
     let unit = typical_length(&problem);
     let equations = &lowered.tail.equations;
     let target = |row: usize| equations[system.rows[row].index].target();
@@ -110,39 +114,30 @@ pub fn surplus(problem: &Problem) -> Result<Census, String> {
     let ranks: Vec<u8> = owners.iter().map(|&owner| rank(&problem, owner)).collect();
     let scale = |row: usize| unit.powi(equations[system.rows[row].index].power);
     let floats = Floats::new(&system, equations, unit);
-    let mut at = system.sketch(unit);
-    let choice = Choice::new(&system, &at, |_| 0, |_| 0, FINE);
-    if choice.redundant.is_empty() {
-        return Ok(census(choice.used.len(), Vec::new()));
-    }
     let structural: Vec<bool> = ranks.iter().map(|&rank| rank < DIMENSION).collect();
-    let mut is_regular = true;
-    match look(&floats, &structural, (&at, &choice), 0) {
-        Drawn::Regular => {}
-        Drawn::Singular { off: Some(off), .. } => (at, is_regular) = (off, false),
-        Drawn::Singular { off: None, .. } => return Ok(Census::default()),
-    }
     let mut order: Vec<usize> = rows.collect();
     order.order_by_key(|&row| ranks[row]);
-    let (independent, circuits) = dependent(&floats, &order, &at);
-    // From where a singular drawing was moved off either of several figures continues it, and one says nothing of another.
-    let is_looked_for = is_regular && !circuits.is_empty() && at.len() <= super::drawn::MANY;
-    let meets_all = || floats.meet(&order, at.clone());
-    let figure = match is_looked_for {
-        true => meets_all().or_else(|| floats.meet(&independent, at.clone())),
-        false => None,
-    };
+    let near = Near::new(&floats, &order, &structural, system.sketch(unit));
+    let (at, independent) = (&near.at, &near.independent);
+    // Rows that others are seen to depend on: all that are met, but those found to be too many.
+    let is_place =
+        matches!(near.what, What::Figure | What::Most { .. }) && at.len() <= super::drawn::MANY;
+    let mut kept: Vec<usize> = order
+        .iter()
+        .copied()
+        .filter(|&row| !floats.misses(row, at))
+        .collect();
+    let mut singular: Vec<usize> = Vec::new();
     // How much the right-hand side of an equation grows with its number, and by how much it may be off by the number's last digit.
     let steepest = |row: usize| match distance(&problem, owners[row]) {
         Some(length) => 2.0 * length,
-        None => system.rows[row].steepness(&at).0 * scale(row) / unit,
+        None => system.rows[row].steepness(at).0 * scale(row) / unit,
     };
     let slack = |row: usize| steepest(row) * digits_of(&problem, owners[row]);
-    let mut found: BTreeMap<Whose, (Surplus, usize)> = BTreeMap::new();
-    for (row, circuit) in circuits {
-        if ranks[row] == OBJECT {
-            continue;
-        }
+    // Of each owner: the finding, the rows, and whose rows these depend on.
+    let mut found: Vec<(usize, Finding, Vec<usize>)> = Vec::new();
+    for (row, circuit) in near.circuits.iter().rev() {
+        let row = *row;
         let identity = |of: &[usize]| {
             let given = of
                 .iter()
@@ -166,63 +161,126 @@ pub fn surplus(problem: &Problem) -> Result<Census, String> {
         // At a special drawing rows of an identity may have no part in the combination of derivatives.
         let found_here = identity(&rows);
         let is_small = independent.len() <= SMALL;
-        let proved = found_here.or_else(|| is_small.then(|| identity(&independent)).flatten());
-        let (identity, rounded, circuit) = match proved {
+        let proved = found_here.or_else(|| is_small.then(|| identity(independent)).flatten());
+        let was_kept = kept.len();
+        kept.retain(|&other| other != row);
+        let (identity, rounded, set) = match proved {
             Some((holds, off, rounded, made_of)) => (Some((holds, off)), rounded, made_of),
             None => {
-                let steep = |k: usize| system.rows[k].steepness(&at).1 * scale(k);
+                let set = match near.what {
+                    // What depends on what at a singular drawing says nothing.
+                    What::Drawing { is_regular: false } => continue,
+                    _ if is_place => floats.holds_with(row, &rows, [independent, &kept], at),
+                    _ => Some(rows.clone()),
+                };
+                let Some(set) = set else {
+                    if kept.len() < was_kept {
+                        kept.push(row);
+                    }
+                    singular.extend(rows.into_iter().chain([row]));
+                    continue;
+                };
+                let steep = |k: usize| floats.steepness(k, at) * scale(k);
                 let of = |&(k, part): &(usize, f64)| part.abs() * slack(k) / steep(k);
                 let rounded = circuit.iter().map(of).sum::<f64>() * steep(row);
-                (None, rounded, rows)
+                (None, rounded, set)
             }
         };
         let divisor = steepest(row);
         let most = ((slack(row) + rounded) / divisor).max(LEAST_PART * unit);
-        let finding = match (identity, &figure) {
-            (Some((true, _)), _) => Finding::Follows,
-            (Some((false, off)), _) => match (off / point(divisor)).mag() {
+        let finding = match identity {
+            Some((true, _)) => Finding::Follows,
+            Some((false, off)) => match (off / point(divisor)).mag() {
                 _ if off.contains(0.0) => Finding::Open,
                 by if by > most => Finding::Contradicts { by },
                 by => Finding::Rounded { by },
             },
-            (None, Some(figure)) => {
-                let value = system.rows[row].evaluate(figure, |_, _| {}) * scale(row);
+            None if is_place => {
+                let value = system.rows[row].evaluate(at, |_, _| {}) * scale(row);
                 let by = match distance(&problem, owners[row]) {
                     Some(length) => value.max(0.0).sqrt() - length,
                     None => (value - target(row).enclose().mid()) / divisor,
                 };
-                match by.abs() {
-                    by if by > most => Finding::Missed { by },
-                    _ => Finding::Met,
+                match (by.abs(), near.what) {
+                    (by, _) if by <= most => Finding::Met,
+                    (_, What::Most { is_one: false }) => Finding::Open,
+                    (by, _) => Finding::Missed { by },
                 }
             }
-            (None, None) => Finding::Open,
+            None => Finding::Open,
         };
-        let one = Surplus {
-            name: owners[row].name(&problem),
-            in_part: false,
-            others: Vec::new(),
-            besides: Vec::new(),
-            finding,
-        };
-        let (one, count) = found.entry(owners[row]).or_insert((one, 0));
-        *count += 1;
-        if finding.weight() > one.finding.weight() {
-            one.finding = finding;
-        }
-        for &k in circuit.iter().filter(|&&k| owners[k] != owners[row]) {
-            let into = match ranks[k] {
-                OBJECT | FIXED | COINCIDENT => &mut one.besides,
-                _ => &mut one.others,
-            };
-            add_new(into, owners[k].name(&problem));
+        found.push((row, finding, set));
+    }
+    let is_clear = is_place && singular.is_empty();
+    let free = width - independent.len();
+    let mut all: BTreeMap<Whose, (usize, Finding, BTreeSet<usize>)> = BTreeMap::new();
+    for (row, finding, set) in found {
+        let one = all
+            .entry(owners[row])
+            .or_insert((0, finding, BTreeSet::new()));
+        one.0 += 1;
+        one.2.extend(set);
+        if finding.weight() > one.1.weight() {
+            one.1 = finding;
         }
     }
-    let all = found.into_iter().map(|(owner, (mut one, count))| {
-        one.in_part = owners.iter().filter(|&&other| other == owner).count() > count;
-        one
+    let surplus = all.into_iter().map(|(owner, (count, finding, set))| {
+        let mut of: Vec<Whose> = Vec::new();
+        set.into_iter()
+            .for_each(|row| add_new(&mut of, owners[row]));
+        of.retain(|&other| other != owner);
+        let names = |of: &mut dyn Iterator<Item = &Whose>| {
+            let mut names = Vec::new();
+            of.for_each(|owner| add_new(&mut names, owner.name(&problem)));
+            names
+        };
+        let is_beside = |owner: &&Whose| rank(&problem, **owner) <= COINCIDENT;
+        let is_object = |owner: &Whose| rank(&problem, *owner) == OBJECT;
+        let equations = owners.iter().filter(|&&other| other == owner).count();
+        // Points that come apart are no cure.
+        let others = of.iter().filter(|owner| !is_beside(owner));
+        let among: Vec<Whose> = [owner].into_iter().chain(others.copied()).collect();
+        // Of large ones this takes long.
+        let most = if at.len() > LARGE { 1 } else { among.len() };
+        let can_go = |&owner: &Whose| Some((owner, cures(&problem, owner, (&system, at), free)?));
+        let tried: Option<Vec<(Whose, bool)>> = match is_clear {
+            true => among.iter().take(most).map(can_go).collect(),
+            // What is proved to follow may go.
+            false if count == equations && finding == Finding::Follows => Some(vec![(owner, true)]),
+            false => None,
+        };
+        let cures = tried.map(|tried| {
+            let good = tried.into_iter().filter(|(_, is_good)| *is_good);
+            good.map(|(owner, _)| owner).collect::<Vec<Whose>>()
+        });
+        // An equation that only says what a number is that it uses is none that is needed.
+        let in_part = match &cures {
+            Some(cures) => !cures.contains(&owner),
+            None => count < equations,
+        };
+        Surplus {
+            name: owner.name(&problem),
+            is_object: is_object(&owner),
+            in_part,
+            others: names(&mut of.iter().filter(|owner| !is_beside(owner))),
+            besides: names(&mut of.iter().filter(is_beside)),
+            cures: cures.map(|cures| names(&mut cures.iter())),
+            finding,
+        }
     });
-    Ok(census(independent.len(), all.collect()))
+    let surplus = surplus.collect();
+    let singular = each_once(singular);
+    Ok(Census {
+        freedom: match singular.is_empty() {
+            true => Freedom::of(&problem, free, near.what),
+            false => Freedom::open(&problem, "the figure near the drawing is singular"),
+        },
+        singular: (!singular.is_empty()).then(|| {
+            let names = singular.iter().map(|&row| owners[row].name(&problem));
+            Singular::new(&problem, &system, &singular, (names, Seen::FirstOrder))
+        }),
+        surplus,
+    })
 }
 
 const OBJECT: u8 = 0;
@@ -265,48 +323,6 @@ fn digits_of(problem: &Problem, owner: Whose) -> f64 {
     }
 }
 
-/// Rows that are combinations of others, each with those others and their parts in it.
-type Circuits = Vec<(usize, Vec<(usize, f64)>)>;
-
-/// Of rows in this order those that say something new after those before, and each other one with the rows of which it is a
-/// combination, all rows scaled to length 1: by the method of Gram and Schmidt, each row twice.
-fn dependent(floats: &Floats, order: &[usize], at: &[f64]) -> (Vec<usize>, Circuits) {
-    const PART: f64 = 1e-6;
-    let (jacobian, _) = floats.linearise(order, at);
-    // Directions of length 1 at right angles to each other, and of which of the rows taken each is a combination.
-    let mut basis: Vec<(DVector<f64>, Vec<f64>)> = Vec::new();
-    let (mut taken, mut circuits) = (Vec::new(), Vec::new());
-    for (k, &row) in order.iter().enumerate() {
-        let mut rest: DVector<f64> = jacobian.row(k).transpose();
-        let mut of = vec![0.0; taken.len()];
-        for _ in 0..2 {
-            for (direction, parts) in &basis {
-                let along = direction.dot(&rest);
-                if along != 0.0 {
-                    rest.axpy(-along, direction, 1.0);
-                    for (sum, part) in of.iter_mut().zip(parts) {
-                        *sum -= along * part;
-                    }
-                }
-            }
-        }
-        let size = rest.norm();
-        if size > PIVOT {
-            of.push(1.0);
-            of.iter_mut().for_each(|part| *part /= size);
-            basis.push((rest / size, of));
-            taken.push(row);
-        } else {
-            let all = taken.iter().zip(&of);
-            let circuit = all
-                .filter(|(_, part)| part.abs() > PART)
-                .map(|(&row, &part)| (row, part));
-            circuits.push((row, circuit.collect()));
-        }
-    }
-    (taken, circuits)
-}
-
 impl Finding {
     /// Which of two of one constraint is the graver.
     fn weight(self) -> u8 {
@@ -335,33 +351,54 @@ impl Surplus {
             ([], besides) => list(besides, LISTED),
             (others, []) => list(others, LISTED),
             (others, besides) => {
-                format!("{} (with {})", list(others, LISTED), list(besides, 4))
+                format!("{} (with {})", list(others, LISTED), list(besides, LISTED))
             }
         };
         let how = match self.finding {
             Finding::Follows => format!("{part}follows, proved, from {set}"),
-            Finding::Contradicts { by } => {
-                format!("contradicts, proved, {set}: it differs by {by:.3e} from what they make it")
-            }
+            Finding::Contradicts { by } => format!(
+                "{part}contradicts, proved, {set}: it differs by {by:.3e} from what they make it"
+            ),
             Finding::Rounded { by } => format!(
                 "{part}says again what these say: {set}; the numbers differ by {by:.1e}, which is within their digits and no \
                  contradiction"
             ),
             Finding::Met => format!(
-                "{part}seems to follow from {set}: a figure near the drawing that meets the others meets it (seen in floats)"
+                "{part}seems to follow from {set}: figures near the drawing that meet these meet it (seen in floats)"
             ),
             Finding::Missed { by } => format!(
-                "contradicts {set} near the drawing: the figure there that meets the others misses it by {by:.3e} (seen in \
-                 floats)"
+                "{part}contradicts {set} near the drawing: figures there that meet these miss it by {by:.3e} (seen in floats)"
             ),
             Finding::Open => format!(
-                "{part}depends on {set}: whether these make it hold or contradict it is not certain"
+                "{part}depends on {set}, to first order where it is drawn (seen in floats): whether these make it hold or \
+                 contradict it is not certain"
             ),
         };
-        let cure = match self.others.is_empty() {
-            true => "remove it".to_owned(),
-            false => "remove it, or any one of these".to_owned(),
+        format!("{} {how}{}", self.name, self.cure_in_words())
+    }
+
+    /// What cures it, in a sentence.
+    fn cure_in_words(&self) -> String {
+        let Some(cures) = &self.cures else {
+            return String::new();
         };
-        format!("{} {how}. To cure it, {cure}", self.name)
+        if self.is_object {
+            return ". Objects need not be changed for that".to_owned();
+        }
+        let others: Vec<&String> = cures.iter().filter(|&cure| *cure != self.name).collect();
+        let can_go = others.len() < cures.len();
+        match (can_go, others.as_slice()) {
+            (true, []) => ". To cure it, remove it".to_owned(),
+            (true, others) if others.len() == self.others.len() => {
+                ". To cure it, remove it, or any one of these".to_owned()
+            }
+            (true, others) => format!(
+                ". To cure it, remove it, or one of {}",
+                list(others, LISTED)
+            ),
+            (false, []) => ". Removed as a whole it would let the figure move".to_owned(),
+            (false, [one]) => format!(". To cure it, remove {one}"),
+            (false, others) => format!(". To cure it, remove one of {}", list(others, LISTED)),
+        }
     }
 }

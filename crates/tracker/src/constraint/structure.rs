@@ -108,6 +108,17 @@ impl<'a> System<'a> {
         }
     }
 
+    /// Whether an equation is all that its source says, and that is no object.
+    fn is_whole(&self, equation: usize) -> bool {
+        let Some(equation) = equation.checked_sub(self.problem.distances.len()) else {
+            return true;
+        };
+        let owners = &self.lowered.owners;
+        let owner = owners[equation];
+        let count = owners.iter().filter(|&&other| other == owner).count();
+        count == 1 && owner >= self.problem.objects.len()
+    }
+
     /// The names of the sources of equations, each once.
     fn names(&self, equations: impl Iterator<Item = usize>) -> Vec<String> {
         let mut names: Vec<String> = Vec::new();
@@ -173,10 +184,22 @@ pub fn check_structure(problem: &Problem) -> Result<(), (Blame, String)> {
     if let Some(circuit) = &found.circuit {
         let names = system.names(circuit.iter().copied());
         let to_spare = equations - found.rows.rank;
+        let in_part = |equation: &usize| !system.is_whole(*equation);
+        let whole = system.names(circuit.iter().copied().filter(|e| !in_part(e)));
+        let remove = match whole.as_slice() {
+            [] => String::new(),
+            whole if whole.len() == names.len() => ", remove one of them".to_owned(),
+            [one] => format!(", remove {one}"),
+            whole => format!(", remove one of {}", list(whole, LISTED)),
+        };
+        let part = match circuit.iter().all(in_part) {
+            true => "in part ",
+            false => "",
+        };
         parts.push(match names.as_slice() {
             [one] => format!("over-constrained: {one} says something twice, or contradicts itself"),
             _ => format!(
-                "over-constrained: any of {} {DEPENDS}, remove one of them{}",
+                "over-constrained: any of {} {part}{DEPENDS}{remove}{}",
                 list(&names, LISTED),
                 match to_spare {
                     1 => String::new(),
@@ -208,8 +231,7 @@ pub fn check_structure(problem: &Problem) -> Result<(), (Blame, String)> {
             format!(" against {}", list(&names, LISTED))
         };
         parts.push(format!(
-            "under-constrained ({} of freedom): {} can still move{against}",
-            counted(unknowns - found.rows.rank, "degree"),
+            "under-constrained: {} can still move{against}",
             list(&movers, LISTED),
         ));
     }

@@ -1,0 +1,162 @@
+//! What `krawl check` says of constraints that are too many: that they follow only where they were seen to, what may be removed only
+//! where that cures it, nothing of drawings at which they depend on each other to first order, and how figures can move.
+
+use assert_cmd::Command;
+use krawl::blocks::{Census, Finding, Seen, surplus};
+use krawl::problem::Problem;
+
+fn census(text: &str) -> Census {
+    surplus(&Problem::parse_loosely(text, "drawing.toml").unwrap()).unwrap()
+}
+
+/// The exit code, and what is told of a file.
+fn check(text: &str) -> (Option<i32>, String) {
+    let file = tempfile::Builder::new().suffix(".toml").tempfile().unwrap();
+    std::fs::write(file.path(), text).unwrap();
+    let mut krawl = Command::new(env!("CARGO_BIN_EXE_krawl"));
+    let output = krawl.arg("check").arg(file.path()).output().unwrap();
+    let text = String::from_utf8(output.stdout).unwrap();
+    (output.status.code(), text)
+}
+
+/// A fixed plate, and a bracket with its bolt's axis in that of the plate and its lower side on the plate.
+const BRACKET: &str = "dimension = 3\n[points]\nb0 = [0,0,10]\nb1 = [100,0,10]\nb2 = [0,60,10]\nh0 = [30,30,10]\nh1 = [30,30,0]\n\
+    q0 = [12,14,11]\nq1 = [52,13,12]\nq2 = [13,44,10]\nq3 = [12,14,41]\nk0 = [29,31,12]\nk1 = [29,31,20]\n[bodies]\n\
+    bracket = { q0 = [0,0,0], q1 = [40,0,0], q2 = [0,30,0], q3 = [0,0,30], k0 = [20,15,0], k1 = [20,15,8] }\n[lines]\n\
+    axis_base = [\"h0\",\"h1\"]\n[planes]\ntop = [\"b0\",\"b1\",\"b2\"]\nunder = [\"q0\",\"q1\",\"q2\"]\nside = [\"q0\",\"q1\",\"q3\"]\n\
+    front = { point = [0,0,0], normal = [0,1,0] }\n[constraints]\nfixed = [\"b0\",\"b1\",\"b2\",\"h0\",\"h1\",\"front\"]\n\
+    coplanar = [[\"b0\",\"b1\",\"b2\",\"q0\"]]\nparallel = [[\"top\",\"under\"]]\non = [[\"k0\",\"axis_base\"],[\"k1\",\"axis_base\"]]\n";
+const TANGENT: &str = "dimension = 2\n[points]\nO = [0, 0]\nM = [12, 6]\nP = [12, 0]\nQ = [30, 0]\n[circles]\n\
+    c = { center = \"M\", radius = 6 }\n[constraints]\nfixed = [\"O\"]\non = [[\"P\", \"x-axis\"], [\"Q\", \"x-axis\"], [\"P\", \"c\"]]\n\
+    dx = [[\"O\", \"M\", 12], [\"O\", \"Q\", 30]]\ndy = [[\"O\", \"M\", 6]]\nradii = [[\"c\", 6]]\n";
+const FACES: &str = "dimension = 3\n[points]\na0 = [0,0,20]\na1 = [40,0,20]\na2 = [0,30,20]\na3 = [0,0,0]\nc0 = [4,5,26]\nc1 = [24,6,25]\n\
+    c2 = [3,15,25]\nc3 = [4,5,41]\n[bodies]\none = { a0 = [0,0,0], a1 = [40,0,0], a2 = [0,30,0], a3 = [0,0,-20] }\n\
+    two = { c0 = [0,0,0], c1 = [20,0,0], c2 = [0,10,0], c3 = [0,0,15] }\n[planes]\ntop1 = [\"a0\",\"a1\",\"a2\"]\n\
+    front1 = [\"a0\",\"a1\",\"a3\"]\nleft1 = [\"a0\",\"a2\",\"a3\"]\nbot2 = [\"c0\",\"c1\",\"c2\"]\nfront2 = [\"c0\",\"c1\",\"c3\"]\n\
+    left2 = [\"c0\",\"c2\",\"c3\"]\n[constraints]\ndistances = [[\"top1\",\"bot2\",5],[\"front1\",\"front2\",3],[\"left1\",\"left2\",4]]\n";
+
+/// The length of a radius follows from how far it goes along x only with the tangent, of which nothing is seen to first order.
+#[test]
+fn a_set_is_as_large_as_it_has_to_be() {
+    let census = census(
+        "dimension = 2\n[points]\nM = [0, 0]\nS = [8, 0]\nA = [8, 5]\n[constraints]\nfixed = [\"M\"]\nvertical = [[\"S\", \"A\"]]\n\
+         perpendicular = [[\"M\", \"S\", \"S\", \"A\"]]\ndx = [[\"M\", \"S\", 8]]\ndistances = [[\"M\", \"S\", 8], [\"S\", \"A\", 5]]\n",
+    );
+    let [one] = &census.surplus[..] else {
+        panic!("{census:?}")
+    };
+    assert_eq!((one.name.as_str(), one.finding), ("`M-S`", Finding::Met));
+    for needed in [
+        "`dx: M, S, 8`",
+        "`vertical: S, A`",
+        "`perpendicular: M, S, S, A`",
+    ] {
+        assert!(one.others.contains(&needed.to_owned()), "{one:?}");
+    }
+    assert!(!one.others.contains(&"`S-A`".to_owned()), "{one:?}");
+    let cures = one.cures.as_deref().unwrap();
+    assert_eq!(cures, ["`M-S`", "`dx: M, S, 8`"]);
+    assert_eq!(census.freedom.ways, Ok(0));
+}
+
+/// The axes make the faces parallel; an angle between the bracket and the plate is needed, and without it the bracket turns.
+#[test]
+fn what_is_needed_is_not_to_be_removed() {
+    let with = census(&format!("{BRACKET}angles = [[\"side\",\"front\",30]]\n"));
+    assert_eq!((with.freedom.ways.clone(), &with.singular), (Ok(0), &None));
+    assert!(!with.surplus.is_empty());
+    for one in &with.surplus {
+        let cures = one.cures.as_ref().unwrap();
+        assert!(!cures.iter().any(|cure| cure.contains("angles")), "{one:?}");
+        assert!(!one.name.contains("angles"), "{one:?}");
+    }
+    let parallel = "`parallel: top, under`".to_owned();
+    let mut cures = with
+        .surplus
+        .iter()
+        .flat_map(|one| one.cures.iter().flatten());
+    assert!(cures.any(|cure| *cure == parallel), "{with:?}");
+    let without = census(BRACKET);
+    assert_eq!(without.freedom.ways, Ok(1));
+    let text = format!("{BRACKET}angles = [[\"side\",\"front\",30]]\n");
+    let cured = census(&text.replace("parallel = [[\"top\",\"under\"]]\n", ""));
+    assert_eq!((cured.freedom.ways, cured.surplus), (Ok(0), Vec::new()));
+    // `solve` refuses the fixed direction.
+    let (_, text) = check(&text);
+    assert!(text.contains("; `krawl edit` takes it as it is"), "{text}");
+}
+
+/// Two points of a body are as far apart as the body says: one of the coordinates at which they are fixed is too much, and neither of
+/// the points.
+#[test]
+fn where_a_part_is_too_much_the_whole_is_not_to_be_removed() {
+    let text = "dimension = 3\n[points]\nP = [0,0,0]\nQ = [2,0,0]\nR = [1,1,0.1]\n[bodies]\nb = { P = [0,0,0], Q = [2,0,0], R = [1,1,0] }\n\
+                [constraints]\nfixed = [\"P\",\"Q\"]\nz = [[\"R\",0.2]]\n";
+    let census = census(text);
+    let [one] = &census.surplus[..] else {
+        panic!("{census:?}")
+    };
+    assert_eq!((one.name.as_str(), one.in_part), ("`fixed: Q`", true));
+    assert_eq!(one.cures, Some(Vec::new()));
+    assert_eq!(census.freedom.ways, Ok(0));
+    let (code, text) = check(text);
+    assert_eq!(code, Some(6));
+    assert!(text.contains("`fixed: Q` in part "), "{text}");
+    assert!(!text.contains("To cure it, remove"), "{text}");
+    assert!(!text.contains("remove one"), "{text}");
+}
+
+#[test]
+fn nothing_follows_from_a_figure_that_is_singular() {
+    let census = census(TANGENT);
+    assert_eq!(census.surplus, []);
+    assert_eq!(census.singular.unwrap().seen, Seen::FirstOrder);
+    let (code, text) = check(TANGENT);
+    assert_eq!(code, Some(0));
+    assert!(!text.contains("seem"), "{text}");
+    assert!(text.contains("the drawing is singular: "), "{text}");
+    assert!(text.contains("to first order only"), "{text}");
+}
+
+/// Where they depend on each other at all figures they are too many, and the drawing is not said to be singular.
+#[test]
+fn what_depends_on_each_other_everywhere_is_too_much() {
+    let census = census(FACES);
+    assert_eq!(census.singular, None);
+    assert_eq!(census.freedom.ways, Ok(0));
+    assert!(
+        census.surplus.iter().any(|one| !one.is_object),
+        "{census:?}"
+    );
+    let (_, text) = check(FACES);
+    assert!(!text.contains("is singular"), "{text}");
+}
+
+/// One line says it, and how the figure moves as a whole.
+#[test]
+fn degrees_of_freedom_are_told_once() {
+    let told = |text: &str| {
+        let (_, text) = check(text);
+        let lines = text.lines().filter(|line| line.contains("of freedom"));
+        let lines: Vec<String> = lines.map(|line| line.trim().to_owned()).collect();
+        assert_eq!(lines.len(), 1, "{text}");
+        lines[0].clone()
+    };
+    let points = "dimension = 2\n[points]\nA = [0, 0]\nB = [41, 1]\nC = [40, 22]\n[constraints]\n";
+    let loose = told(&format!(
+        "{points}dy = [[\"B\", \"C\", 21]]\ndistances = [[\"A\", \"B\", 41]]\n"
+    ));
+    assert_eq!(
+        loose,
+        "degrees of freedom  2, besides moving as a whole along x, y"
+    );
+    let triangle = "distances = [[\"A\", \"B\", 41], [\"B\", \"C\", 21], [\"A\", \"C\", 45]]\n";
+    let square = told(&format!("{points}{triangle}"));
+    assert_eq!(
+        square,
+        "degrees of freedom  0, besides moving and turning as a whole"
+    );
+    let crank = told(&format!("{points}fixed = [\"A\"]\n{triangle}"));
+    assert_eq!(crank, "degrees of freedom  1");
+    assert!(told(TANGENT).contains("not told: "));
+}
