@@ -162,8 +162,8 @@ fn of_the_motion(file: &Path, found: Option<(Vec<String>, f64, Account)>) -> Str
     let file = file.display();
     let Some((missing, off, account)) = found else {
         return format!(
-            "REFUTED: the points, the objects, the constraints, or where points are drawn, are in the proof not those in {file}: whether it is a motion of \
-             that figure, too, was not looked at.\n"
+            "REFUTED: the points, where they are drawn, the objects or the constraints of the proof are not those in {file}: it is of another figure, or of \
+             that one drawn or written otherwise.\n"
         );
     };
     let but = match &missing[..] {

@@ -4,7 +4,7 @@
 //! joints go is not read. Angles are radians: one that is a multiple of π/2, rounded to the digits that it is written with (three at least), is taken for that multiple.
 
 use crate::interval::vector::{cross, dot, length};
-use crate::problem::{Decimal, JointSort, Pose};
+use crate::problem::{Decimal, Formula, JointSort, Pose};
 use roxmltree::{Document, Node};
 use std::collections::{HashMap, HashSet};
 use std::f64::consts::FRAC_PI_2;
@@ -163,12 +163,27 @@ impl Follower {
                 format!("line {}: `{name}`: {key}=\"{text}\": {error}", line(mimic))
             }),
         };
-        let offset = number("offset", 0)?;
+        let (times, offset) = (number("multiplier", 1)?, number("offset", 0)?);
+        let parts = [
+            times.value().numer().magnitude(),
+            times.value().denom().magnitude(),
+        ];
+        if does == "turn"
+            && parts
+                .iter()
+                .any(|part| **part > Formula::MOST_TURNS.unsigned_abs().into())
+        {
+            return Err(format!(
+                "line {}: `{name}`: multiplier=\"{times}\": a joint follows another one by a ratio of whole numbers up to {}",
+                line(mimic),
+                Formula::MOST_TURNS
+            ));
+        }
         Ok(Follower {
             name: name.to_owned(),
             does,
             leader: attribute(mimic, "joint")?.to_owned(),
-            times: number("multiplier", 1)?,
+            times,
             offset: match (does, quarters(&offset)) {
                 ("turn", Some(quarters)) => (90.0 * quarters).to_string(),
                 ("turn", None) => offset.to_f64().to_degrees().to_string(),

@@ -31,7 +31,7 @@ fn the_proof_of_a_motion_is_about_the_figure_that_moves() {
     let (code, said, _) = krawl(&["verify", &proof, CRANK]);
     assert_eq!(code, Some(1));
     assert!(
-        said.contains("is a motion of that figure, too, was not looked at"),
+        said.contains("or of that one drawn or written otherwise"),
         "{said}"
     );
 }

@@ -124,14 +124,17 @@ impl Verdict {
 
     /// Of two figures together.
     pub fn beside(self, other: Self) -> Self {
-        use Verdict::{Missed, MissedBySome};
+        use Verdict::{Missed, MissedBySome, NotLookedAt};
         match (self, other) {
             (Missed { by: a }, Missed { by: b }) => Missed { by: a.min(b) },
             (
                 Missed { by: a } | MissedBySome { by: a },
                 Missed { by: b } | MissedBySome { by: b },
             ) => MissedBySome { by: a.max(b) },
-            (Missed { by }, _) | (_, Missed { by }) => MissedBySome { by },
+            (Missed { by } | MissedBySome { by }, _) | (_, Missed { by } | MissedBySome { by }) => {
+                MissedBySome { by }
+            }
+            (NotLookedAt, _) | (_, NotLookedAt) => NotLookedAt,
             _ => self.and(other),
         }
     }
@@ -216,13 +219,20 @@ impl Account {
 
     /// The same claim made of other figures, too: with the worse verdict of each constraint, and all that is held in either.
     pub fn join(&mut self, other: &Account) {
+        // What was used of the figures of one of both is met by these.
+        let by_some = |verdict: Verdict, others: &Account, name: &str| match verdict {
+            Verdict::Missed { by }
+                if others.equations > 0 && !others.left_out.iter().any(|o| o.name == name) =>
+            {
+                Verdict::MissedBySome { by }
+            }
+            verdict => verdict,
+        };
+        for own in &mut self.left_out {
+            own.verdict = by_some(own.verdict, other, &own.name);
+        }
         for one in &other.left_out {
-            // What was used of figures before is met by them.
-            let is_new = !self.left_out.iter().any(|own| own.name == one.name);
-            let verdict = match one.verdict {
-                Verdict::Missed { by } if is_new => Verdict::MissedBySome { by },
-                verdict => verdict,
-            };
+            let verdict = by_some(one.verdict, self, &one.name);
             self.leave_out_beside(one.name.clone(), verdict);
         }
         for added in &other.added {
@@ -629,6 +639,7 @@ mod tests {
     fn of_several_figures_no_more_is_said_than_holds_for_all() {
         let met = Verdict::Met { within: 1e-9 };
         let [near, far] = [0.1, 0.5].map(|by| Verdict::Missed { by });
+        assert_eq!(Verdict::NotLookedAt.beside(met), Verdict::NotLookedAt);
         assert_eq!(near.beside(far), near);
         assert_eq!(met.beside(far), Verdict::MissedBySome { by: 0.5 });
         assert_eq!(
@@ -650,7 +661,10 @@ mod tests {
             "{words}"
         );
         // A constraint that figures before were made with is met by those.
-        let mut used = Account::default();
+        let mut used = Account {
+            equations: 3,
+            ..Account::default()
+        };
         used.join(&Account {
             left_out: vec![LeftOut {
                 name: "C-D".to_owned(),

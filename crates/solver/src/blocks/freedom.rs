@@ -1,7 +1,9 @@
 //! In how many ways a figure can move.
 
+use super::drawn::CLEAR;
 use super::near::What;
 use crate::constraint::{fix_frame, pinned_axes};
+use crate::interval::vector::{cross, length, minus};
 use crate::problem::{Problem, list};
 
 /// In how many ways a figure can move, besides those in which it moves as a whole.
@@ -26,14 +28,16 @@ impl Freedom {
     pub(super) fn of(problem: &Problem, free: usize, what: What) -> Self {
         let (motions, whole) = whole(problem);
         let ways = match what {
+            _ if motions > 0 && !fix_frame(problem) && !turns_in_all_ways(problem) => {
+                Err("all points are drawn in one place or on one line".to_owned())
+            }
             What::Figure | What::Most { .. } => Ok(free.saturating_sub(motions)),
             What::Drawing { .. } => {
                 Err("nothing that meets the constraints was found near the drawing".to_owned())
             }
-            What::Large => Err(
-                "the drawing is no figure, and too large for one near it to be looked for"
-                    .to_owned(),
-            ),
+            What::Large => {
+                Err("the drawing is too large for figures near it to be looked for".to_owned())
+            }
         };
         Freedom { ways, whole }
     }
@@ -48,6 +52,27 @@ impl Freedom {
             Ok(ways) => format!("{ways}{whole}"),
             Err(why) => format!("not told: {why}"),
         }
+    }
+}
+
+/// Whether all motions of a figure as a whole move its points: there are as many of them as of a body.
+fn turns_in_all_ways(problem: &Problem) -> bool {
+    let points = problem.places();
+    let Some((&first, rest)) = points.split_first() else {
+        return false;
+    };
+    let ways = rest.iter().map(|&p| minus(p, first));
+    let Some(longest) = ways
+        .clone()
+        .max_by(|a, b| length(*a).total_cmp(&length(*b)))
+    else {
+        return false;
+    };
+    match problem.dimension {
+        2 => length(longest) > 0.0,
+        _ => ways
+            .into_iter()
+            .any(|way| length(cross(way, longest)) > CLEAR * length(longest) * length(longest)),
     }
 }
 

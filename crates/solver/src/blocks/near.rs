@@ -46,7 +46,15 @@ impl Near {
         let place = |at: Vec<f64>, what: What| Near::of(floats, order, at, what);
         if drawn.len() > MANY {
             let is_met = !order.is_empty() && floats.missed(order, &drawn) < MET;
-            return place(drawn, if is_met { What::Figure } else { What::Large });
+            let near = place(drawn, What::Large);
+            // What depends on each other there need not at figures near it.
+            return match is_met && near.circuits.is_empty() {
+                true => Near {
+                    what: What::Figure,
+                    ..near
+                },
+                false => near,
+            };
         }
         let full = order.len().min(drawn.len());
         // That of the greatest rank: what depends on each other at a figure that is singular by chance does not at others.

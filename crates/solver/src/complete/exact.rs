@@ -188,7 +188,7 @@ fn held(problem: &Problem, ends: [usize; 2], turned: bool) -> String {
     };
     let side = match turned {
         true => "on the same side",
-        false => "on either side",
+        false => "on opposite sides",
     };
     format!(
         "{} {on} with {a} and {b} {side} of {}, as no figure has these distances exactly",

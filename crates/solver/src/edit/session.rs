@@ -200,6 +200,7 @@ impl Session {
         });
         if let Some(there) = there {
             (edited.points, edited.objects) = (there.points, there.objects);
+            edited.account = there.account;
             edited.there = Some(there.dimensions.iter().map(|d| d.value).collect());
         }
         edited

@@ -93,7 +93,8 @@ pub struct Frame {
     pub at: f64,
     /// A box around its points, in the coordinates of the problem.
     pub points: Vec<[Interval; 3]>,
-    /// Where objects are in it.
+    /// What numbers objects have in it: turns and travels of joints, radii, unknowns. (Where lines and planes of their own are is told as the path was
+    /// followed, and not in the coordinates of the problem.)
     pub objects: Vec<Located>,
 }
 
@@ -499,7 +500,6 @@ fn rigid(problem: &Problem, fault: Option<String>) -> String {
     }
 }
 
-/// Figures at equal lengths of the path.
 /// Whether a quantity is not the same in all frames.
 fn changes(frames: &[Frame], quantity: &Quantity) -> bool {
     let mut values = frames.iter().map(|of| quantity.of(&of.points, &of.objects));
@@ -511,6 +511,7 @@ fn changes(frames: &[Frame], quantity: &Quantity) -> bool {
     common.is_none()
 }
 
+/// Figures at equal lengths of the path.
 fn frames(round: &Round) -> Vec<Frame> {
     let (start, end) = (round.trace.start(), round.trace.length());
     let place = |k: usize| start + (end - start) * (k as f64 / (FRAMES - 1) as f64);

@@ -341,7 +341,7 @@ fn check(problem: &Problem, limits: &Limits) -> Result<(), String> {
         Kind::Slope => 90.0,
         Kind::Turn | Kind::Nothing => {
             return Err(format!(
-                "{name}: limits are not taken of turns and torsions yet, of which cosine and sine go together: give it none, or say `angles`"
+                "{name}: limits are not taken of turns and torsions yet, of which cosine and sine go together: give it none"
             ));
         }
     };

@@ -148,11 +148,14 @@ impl Algebra for Polynomials<'_> {
             _ => None,
         };
         if let (Some(atom), Some(inner)) = (of_joint, rest.trim_start().strip_prefix('(')) {
-            let (joint, behind) = inner
-                .split_once(')')
-                .ok_or_else(|| format!(": `)` is missing behind {name}("))?;
-            let joint = self.joint(joint.trim())?;
-            return Ok((self.atom(atom(joint)), rest.len() - behind.len()));
+            // Names of joints may have a parenthesis in them.
+            let mut ends = inner.match_indices(')').map(|(end, _)| end);
+            let first = ends.clone().next();
+            let end = ends.find(|&end| self.joint(inner[..end].trim()).is_ok());
+            let end = end.or(first);
+            let end = end.ok_or_else(|| format!(": `)` is missing behind {name}("))?;
+            let joint = self.joint(inner[..end].trim())?;
+            return Ok((self.atom(atom(joint)), rest.len() - inner.len() + end + 1));
         }
         let mut behind = rest.chars();
         let coordinate = (behind.next() == Some('.'))
