@@ -27,6 +27,9 @@ struct Request<'a> {
     /// Whether the figure stays what it is.
     #[serde(default)]
     probe: bool,
+    /// From here on each figure is remembered, for `undo`.
+    #[serde(default)]
+    remember: bool,
     /// Goes back to the figure before the last one that was taken.
     #[serde(default)]
     undo: bool,
@@ -47,6 +50,8 @@ const MOST_KEPT: usize = 100;
 /// A session, and figures that can be gone back to.
 struct Figures<'a> {
     session: &'a mut Session,
+    /// Whether figures are remembered, which takes about as long as an edit.
+    remembers: bool,
     before: VecDeque<Session>,
     kept: BTreeMap<String, Session>,
 }
@@ -54,9 +59,9 @@ struct Figures<'a> {
 impl Figures<'_> {
     /// Does something that may give the session another figure: whether it has.
     fn changed<T>(&mut self, does: impl FnOnce(&mut Session) -> (T, bool)) -> (T, bool) {
-        let before = self.session.clone();
+        let before = self.remembers.then(|| self.session.clone());
         let (result, is_changed) = does(self.session);
-        if is_changed {
+        if let Some(before) = before.filter(|_| is_changed) {
             self.remember(before);
         }
         (result, is_changed)
@@ -71,18 +76,25 @@ impl Figures<'_> {
 
     /// Goes back, or keeps a figure, if that is asked for: the figure as it then is. `None`: neither is.
     fn recall(&mut self, request: &Request) -> Option<Result<Value, String>> {
-        let asked = [request.undo, request.keep.is_some(), request.back.is_some()];
+        let asked = [
+            request.remember,
+            request.undo,
+            request.keep.is_some(),
+            request.back.is_some(),
+        ];
         let count = asked.iter().filter(|asked| **asked).count();
         let is_alone = request.set.is_empty() && request.drag.is_empty() && !request.probe;
         match count {
             0 => return None,
             1 if is_alone => {}
             _ => {
-                let why = "`undo`, `keep` and `back` each stand in a line of their own";
+                let why = "`remember`, `undo`, `keep` and `back` each stand in a line of their own";
                 return Some(Err(why.to_owned()));
             }
         }
-        if let Some(name) = &request.keep {
+        if request.remember {
+            self.remembers = true;
+        } else if let Some(name) = &request.keep {
             if self.kept.len() == MOST_KEPT && !self.kept.contains_key(name) {
                 return Some(Err(format!("{MOST_KEPT} figures are kept at most")));
             }
@@ -97,10 +109,18 @@ impl Figures<'_> {
                 return Some(Err(format!("no figure is kept as `{name}`; kept: {names}")));
             };
             let now = std::mem::replace(self.session, kept.clone());
-            self.remember(now);
+            if self.remembers {
+                self.remember(now);
+            }
         } else {
             let Some(before) = self.before.pop_back() else {
-                return Some(Err("there is nothing to undo".to_owned()));
+                let why = match self.remembers {
+                    true => "there is nothing to undo",
+                    false => {
+                        "there is nothing to undo: figures are remembered from a line {\"remember\": true} on"
+                    }
+                };
+                return Some(Err(why.to_owned()));
             };
             *self.session = before;
         }
@@ -120,6 +140,7 @@ impl Figures<'_> {
 pub fn serve(session: &mut Session, loaded: &Loaded) -> bool {
     let mut figures = Figures {
         session,
+        remembers: false,
         before: VecDeque::new(),
         kept: BTreeMap::new(),
     };

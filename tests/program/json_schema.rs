@@ -286,7 +286,7 @@ fn figures_of_a_session_can_be_gone_back_to() {
     ] {
         let [one, other] = values.map(|value| format!("{{\"set\": {{\"{name}\": {value}}}}}"));
         let lines = [
-            "{}",
+            "{\"remember\": true}",
             &one,
             "{\"keep\": \"one\"}",
             &other,

@@ -92,6 +92,8 @@ fn middle(place: &[Interval; 3]) -> Point3<f64> {
 pub fn relative_width(points: &[[Interval; 3]], objects: &[Located]) -> f64 {
     let numbers = objects.iter().flat_map(|object| match object {
         Located::Number(number) => std::slice::from_ref(number),
+        // Beside an origin that may be 0 its axes tell more.
+        Located::Pose { at, axes } if at.iter().all(|x| x.contains(0.0)) => axes.as_flattened(),
         Located::Pose { at, .. } => &at[..],
         _ => &[],
     });
