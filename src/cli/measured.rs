@@ -49,6 +49,12 @@ impl Measured {
         }
         Measures::parse(problem, &[&own[..], &self.measure].concat())
     }
+
+    /// The same without what of the file's own has no meaning where no constraint says where the figure is.
+    pub fn with_meaning(&self, problem: &Problem) -> Result<Measures, String> {
+        self.of(problem)?;
+        Measures::parse(problem, &self.texts(problem))
+    }
 }
 
 /// What a file wants measured.

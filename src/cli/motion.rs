@@ -68,7 +68,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
     let problem = &loaded.problem;
     output::say_if_signs_are_not_looked_at(problem);
     // What can be measured is known before anything is followed.
-    let measures = arguments.measured.of(problem)?;
+    let measures = arguments.measured.with_meaning(problem)?;
     let file = &arguments.source.file;
     let named = [arguments.json.as_deref(), arguments.csv.as_deref()];
     output::refuse_read([file], arguments.cert.as_deref())?;

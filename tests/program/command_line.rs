@@ -671,33 +671,22 @@ fn a_broken_file_among_others_is_passed_over() {
     let folder = tempfile::tempdir().unwrap();
     let broken = folder.path().join("broken.toml");
     fs::write(&broken, "dimension\n").unwrap();
-    let run = krawl()
-        .args(["solve", OCTAHEDRON])
-        .arg(&broken)
-        .args(["problems/prism.toml", "--summary"])
-        .assert()
-        .code(2)
-        .get_output()
-        .clone();
-    let told = String::from_utf8(run.stdout).unwrap();
+    let broken = broken.to_str().unwrap();
+    let files = ["solve", OCTAHEDRON, broken, "problems/prism.toml"];
+    let (code, told, error) = output_of(&[&files[..], &["--summary"]].concat(), None);
+    assert_eq!(code, Some(2));
     assert!(
         told.contains("octahedron") && told.contains("prism"),
         "{told}"
     );
-    let error = String::from_utf8(run.stderr).unwrap();
     assert!(error.contains("broken.toml:1"), "{error}");
 }
 
 /// A bracket in its own frame is told its figures, though its path ends where a side goes to nothing; ends are told without numbers of the run.
 #[test]
 fn a_bracket_is_solved() {
-    let run = krawl()
-        .args(["solve", "docs/examples/bracket.toml"])
-        .assert()
-        .code(0)
-        .get_output()
-        .clone();
-    let told = String::from_utf8(run.stdout).unwrap();
+    let (code, told, _) = output_of(&["solve", "docs/examples/bracket.toml"], None);
+    assert_eq!(code, Some(0));
     assert!(
         told.contains("Complete, proved: 1 figure meets all constraints"),
         "{told}"

@@ -191,6 +191,17 @@ impl<'a> Floats<'a> {
     }
 }
 
+/// A place with some unknowns moved, in one of the ways to do so, two and two in opposite directions.
+pub(super) fn moved(at: &[f64], unknowns: impl Iterator<Item = usize>, way: u64) -> Vec<f64> {
+    let mut random = Random::new(way / 2 + 1);
+    let size = if way.is_multiple_of(2) { MOVED } else { -MOVED };
+    let mut moved = at.to_vec();
+    for u in unknowns {
+        moved[u] += size * random.symmetric();
+    }
+    moved
+}
+
 /// Looks at a drawing of which a choice of equations has been made. `structural`: for each row whether it is no dimension.
 /// `way`: of the ways to move off a singular drawing this one, two and two in opposite directions.
 pub(crate) fn look(
@@ -211,12 +222,7 @@ pub(crate) fn look(
     let of = |row: &usize| &floats.system.rows[*row].unknowns;
     let unknowns = each_once(rows.iter().flat_map(of).copied());
     let beside = |way: u64| {
-        let mut random = Random::new(way / 2 + 1);
-        let sign = if way.is_multiple_of(2) { MOVED } else { -MOVED };
-        let mut moved = at.to_vec();
-        for &u in &unknowns {
-            moved[u] += sign * random.symmetric();
-        }
+        let moved = moved(at, unknowns.iter().copied(), way);
         floats.meet(&kept, moved).filter(|at| rank(at) > here)
     };
     let Some(off) = [way].into_iter().chain(0..2 * SEEDS).find_map(beside) else {

@@ -1,8 +1,7 @@
 //! A place near a drawing at which constraints can be compared: a figure that meets them, or as many as can be.
 
 use super::choose::PIVOT;
-use super::drawn::{CLEAR, Circuits, Drawn, Floats, MANY, MET, MOVED, SEEDS, look};
-use crate::random::Random;
+use super::drawn::{CLEAR, Circuits, Drawn, Floats, MANY, MET, SEEDS, look, moved};
 
 /// Of more unknowns less is tried.
 pub(super) const LARGE: usize = 100;
@@ -61,14 +60,9 @@ impl Near {
         let mut found: Option<(Vec<f64>, usize)> = None;
         let ways = if drawn.len() > LARGE { 2 } else { 2 * SEEDS };
         for way in 0..=ways {
-            let mut random = Random::new(way / 2 + 1);
-            let size = match way {
-                0 => 0.0,
-                way if way.is_multiple_of(2) => MOVED,
-                _ => -MOVED,
-            };
-            let beside = drawn.iter().map(|x| x + size * random.symmetric());
-            let Some(at) = floats.meet(order, beside.collect()) else {
+            // First where it is drawn.
+            let all = if way == 0 { 0 } else { drawn.len() };
+            let Some(at) = floats.meet(order, moved(&drawn, 0..all, way)) else {
                 continue;
             };
             let rank = floats.independent(order, &at, CLEAR).0.len();

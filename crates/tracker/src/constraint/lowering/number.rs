@@ -103,51 +103,43 @@ impl Lowering<'_> {
         degrees: &Rational,
     ) -> Result<(), Fault> {
         // A factor with a turn the other way round is never the first.
-        let sign = if turns.iter().all(|(_, times)| *times < 0) {
-            -1
-        } else {
-            1
-        };
+        let all_back = turns.iter().all(|(_, times)| *times < 0);
+        let sign = if all_back { -1 } else { 1 };
         let mut turns: Vec<(usize, i64)> = turns.iter().map(|&(j, n)| (j, sign * n)).collect();
         turns.sort_by_key(|(_, times)| Reverse(times.signum()));
-        let mut all: Option<Turned> = None;
-        let last = turns.len() - 1;
-        for (k, (joint, times)) in turns.into_iter().enumerate() {
-            let one = self.turned(joint)?;
-            let power = self.power(&one, times.unsigned_abs());
-            let next = match &all {
+        let (last, times) = turns.pop().expect("there is a turn");
+        let mut before: Option<Turned> = None;
+        for (joint, times) in turns {
+            let power = self.power(joint, times)?;
+            before = Some(match before {
                 None => power,
-                Some(all) if k < last => self.turned_on(all, &power, times < 0),
-                Some(all) => {
-                    let products = of_both(&all.parts, &power.parts, times < 0);
-                    return self.sum_is(name, products, sign, degrees);
-                }
-            };
-            all = Some(next);
+                Some(all) => self.turned_on(&all, &power, times < 0),
+            });
         }
-        let parts = all.expect("there is a turn").parts;
-        let products = parts.map(|part| vec![product(&(1, vec![part]))]);
-        self.sum_is(name, products, sign, degrees)
-    }
-
-    fn sum_is(
-        &mut self,
-        name: &str,
-        products: [Vec<Product>; 2],
-        sign: i64,
-        degrees: &Rational,
-    ) -> Result<(), Fault> {
+        let last = self.power(last, times)?.parts;
+        let products = match before {
+            None => last.map(|part| vec![product(&(1, vec![part]))]),
+            Some(all) => of_both(&all.parts, &last, times < 0),
+        };
         let now = products.each_ref().map(|products| self.at_sketch(products));
         let degrees = degrees * &Rational::from_integer(sign.into());
         self.turn_by(name, products, (now, &Real::whole(1), 0), &degrees)
     }
 
+    /// By how much a joint is turned, taken so often whatever the sign.
+    fn power(&mut self, joint: usize, times: i64) -> Result<Turned, Fault> {
+        let products = self.turned_products(joint)?;
+        let name = format!("turn({})", self.problem.objects[joint].name);
+        let one = self.cosine_and_sine(name, products, Some(joint));
+        Ok(self.repeated(&one, times.unsigned_abs()))
+    }
+
     /// A turn taken so often, by squares.
-    fn power(&mut self, one: &Turned, times: u64) -> Turned {
+    fn repeated(&mut self, one: &Turned, times: u64) -> Turned {
         if times == 1 {
             return one.clone();
         }
-        let half = self.power(one, times / 2);
+        let half = self.repeated(one, times / 2);
         let square = self.turned_on(&half, &half, false);
         match times % 2 {
             0 => square,
@@ -160,27 +152,21 @@ impl Lowering<'_> {
         let sign = if is_back { '-' } else { '+' };
         let name = format!("{} {sign} {}", one.name, other.name);
         let products = of_both(&one.parts, &other.parts, is_back);
-        self.cosine_and_sine(name, products, |_| None)
+        self.cosine_and_sine(name, products, None)
     }
 
-    /// By how much a joint is turned.
-    fn turned(&mut self, joint: usize) -> Result<Turned, Fault> {
-        let products = self.turned_products(joint)?;
-        let name = format!("turn({})", self.problem.objects[joint].name);
-        Ok(self.cosine_and_sine(name, products, |k| Some(Made::Turn(joint, k))))
-    }
-
-    /// Numbers that are these sums of products; one that was made before under what `made` says is taken again.
+    /// Numbers that are these sums of products; those of a joint's turn are made once.
     fn cosine_and_sine(
         &mut self,
         name: String,
         products: [Vec<Product>; 2],
-        made: impl Fn(usize) -> Option<Made>,
+        joint: Option<usize>,
     ) -> Turned {
         let mut which = ["cosine", "sine"].into_iter().enumerate();
         let parts = products.map(|mut products| {
             let (k, what) = which.next().expect("there are two");
-            if let Some(number) = made(k).and_then(|made| self.numbers.get(&made)) {
+            let made = joint.map(|joint| Made::Turn(joint, k));
+            if let Some(number) = made.as_ref().and_then(|made| self.numbers.get(made)) {
                 return number.clone();
             }
             let (name, at) = (format!("the {what} of {name}"), self.at_sketch(&products));
@@ -188,7 +174,7 @@ impl Lowering<'_> {
             products.push(Product::new(-1, value(entry), Form::One));
             self.equate(&name, products, vec![Real::zero()], 0);
             let number = Number { entry, at, name };
-            match made(k) {
+            match made {
                 Some(made) => self.kept(made, number),
                 None => number,
             }

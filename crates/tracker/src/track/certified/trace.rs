@@ -1,7 +1,7 @@
 //! The path as it was proved, kept to be drawn: the tubes' polynomials, and the folds.
 
 use super::link::{Frame, Tube};
-use crate::interval::along::{Along, Quantifiable as _};
+use crate::interval::along::Along;
 use crate::interval::{Interval, hull, point};
 use crate::places::{Each as _, array};
 use crate::system::{Gauge, Homotopy, Located};
@@ -434,20 +434,13 @@ impl TubePart<'_> {
         let Some(homotopy) = &self.trace.homotopy else {
             return Vec::new();
         };
-        let points = 0..homotopy.points;
-        points.map(|p| self.around(p).each(|x| x.value)).collect()
+        let unit = point(homotopy.unit);
+        let place = |p: usize| homotopy.place(p, |i| self.entry_around(i).value * unit);
+        (0..homotopy.points).map(place).collect()
     }
 
-    /// A box of a point, and of how fast the tube's polynomial moves: the path is beside it, at most so far that the box holds it.
-    fn around(&self, point: usize) -> [Along; 3] {
-        let Some(homotopy) = &self.trace.homotopy else {
-            return [Along::constant(0.0); 3];
-        };
-        let unit = Along::constant(homotopy.unit);
-        homotopy.place(point, |i| self.entry(i, self.s) * unit)
-    }
-
-    /// A range of an unknown, in the homotopy's own unit, likewise.
+    /// A range of an unknown, in the homotopy's own unit, and of how fast the tube's polynomial moves: the path is beside it, at most so far that the range
+    /// holds it.
     pub fn entry_around(&self, i: usize) -> Along {
         self.entry(i, self.s)
     }

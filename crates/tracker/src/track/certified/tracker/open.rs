@@ -17,6 +17,8 @@ use crate::track::{Control, Options, Status, Stop, StopKind};
 pub(super) struct Halt {
     pub stop: Stop,
     pub came_to: CameTo,
+    /// What is seen there, in words, where the run did not end for want of a proof; its stop begins with it.
+    pub what: String,
     /// The vector, by number, that could not be proved not to vanish at the smallest step, if that was what failed.
     pub vanishes: Option<usize>,
 }
@@ -41,6 +43,7 @@ impl From<Stop> for Halt {
         Halt {
             stop,
             came_to: CameTo::Nothing,
+            what: String::new(),
             vanishes: None,
         }
     }
@@ -217,9 +220,9 @@ impl<const N: usize, T: Test<N>> Tracker<'_, N, T> {
     pub(super) fn halt(&self, kind: StopKind, what: String, came_to: CameTo) -> Halt {
         let stop = Stop::new(kind, format!("{what}, {}", self.place()));
         Halt {
-            stop,
             came_to,
-            vanishes: None,
+            what,
+            ..stop.into()
         }
     }
 
@@ -231,33 +234,20 @@ impl<const N: usize, T: Test<N>> Tracker<'_, N, T> {
         let end = match halt.came_to {
             _ if self.homotopy.tail.is_empty() => None,
             CameTo::Nothing => None,
-            CameTo::Away(_) | CameTo::Endless => Some((EndKind::Infinite, None)),
-            CameTo::Vanishing => Some((EndKind::Undefined, None)),
-            CameTo::Stuck { is_singular } => {
-                let seen = self.stuck_at(is_singular);
-                seen.map(|(kind, what)| (kind, Some(what)))
-            }
+            CameTo::Away(_) | CameTo::Endless => Some((EndKind::Infinite, halt.what.clone())),
+            CameTo::Vanishing => Some((EndKind::Undefined, halt.what.clone())),
+            CameTo::Stuck { is_singular } => self.stuck_at(is_singular),
         };
         let stop = halt.stop.kind;
         let goes_on = self.goes_both_ways && stop != StopKind::Interrupted;
         let (kind, stop, what) = match end {
             Some((kind, what)) => (kind, None, what),
-            None if goes_on => (EndKind::Stopped, Some(stop), Some(String::new())),
+            None if goes_on => (EndKind::Stopped, Some(stop), String::new()),
             None => return Err(halt),
         };
-        let (what, reason) = match what {
-            // Of what is seen before a run is stuck its stop says what, and where.
-            None => {
-                let text = &halt.stop.text;
-                let place = format!(", {}", self.place());
-                let what = text.strip_suffix(&place).unwrap_or(text).to_owned();
-                (what, text.clone())
-            }
-            Some(what) if what.is_empty() => (what, halt.stop.text.clone()),
-            Some(what) => {
-                let reason = format!("{what}: {}", halt.stop);
-                (what, reason)
-            }
+        let reason = match halt.stop.starts_with(&what) {
+            true => halt.stop.text.clone(),
+            false => format!("{what}: {}", halt.stop),
         };
         let away = match halt.came_to {
             CameTo::Away(away) => Some(away),

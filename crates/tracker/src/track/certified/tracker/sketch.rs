@@ -15,9 +15,8 @@ impl<const N: usize, T: Test<N>> Tracker<'_, N, T> {
         if first_normal(equations, &mut self.inverter, &mut at_sketch, reverse).is_err() {
             let pivots = at_sketch.pivot_ratio_of_jacobian(equations);
             return Err(Halt {
-                stop: Stop::new(StopKind::Sketch, no_direction(pivots)),
                 came_to: CameTo::Stuck { is_singular: true },
-                vanishes: None,
+                ..Stop::new(StopKind::Sketch, no_direction(pivots)).into()
             });
         }
         self.first_normal.copy_from_slice(&at_sketch.normal);

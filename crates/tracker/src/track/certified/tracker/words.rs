@@ -62,9 +62,9 @@ impl<const N: usize, T: Test<N>> Tracker<'_, N, T> {
             self.place()
         );
         Halt {
-            stop: Stop::new(kind, words),
             came_to: CameTo::Stuck { is_singular },
             vanishes,
+            ..Stop::new(kind, words).into()
         }
     }
 
@@ -84,9 +84,8 @@ impl<const N: usize, T: Test<N>> Tracker<'_, N, T> {
             self.homotopy.remark_on_lengths(t)
         );
         Halt {
-            stop: Stop::new(kind, words),
             came_to: CameTo::Stuck { is_singular },
-            vanishes: None,
+            ..Stop::new(kind, words).into()
         }
     }
 
