@@ -258,6 +258,20 @@ fn a_hole_stays_in_its_plate() {
     assert!((value - 101.0).abs() < 1e-6, "{value}");
 }
 
+/// A side of a triangle swings towards a quarter of a circle, whose circle it would touch long before.
+#[test]
+fn a_side_comes_to_an_arc_and_not_to_its_circle() {
+    let text = "name = \"quarter\"\ndimension = 2\n[points]\nP0 = [2,-6]\nP1 = [3,-5]\nP2 = [3,1]\nM = [0,0]\nS = [2,0]\nE = [0,2]\n[lines]\n\
+                s0 = [\"P0\",\"P1\"]\ns1 = [\"P1\",\"P2\"]\ns2 = [\"P2\",\"P0\"]\nchord = [\"E\",\"S\"]\n[arcs]\n\
+                arc = { center = \"M\", start = \"S\", end = \"E\" }\n[constraints]\nfixed = [\"M\",\"S\"]\n\
+                x = [[\"P0\",2],[\"P1\",3],[\"P2\",3],[\"E\",0]]\ny = [[\"P0\",-6],[\"P1\",-5],[\"P2\",1]]\n";
+    let (stop, value, _) = stopped(text, &["x:P0=-6"]);
+    assert_eq!(stop.kind, StopKind::Touches, "{stop}");
+    // On the line through (3, 1) and (2, 0), where the arc begins.
+    assert!((value + 4.0).abs() < 1e-6, "{value}");
+    assert!(stop.contains("s2"), "{stop}");
+}
+
 /// A hole at the end of an arm: its path is no line, and is followed in tubes.
 #[test]
 fn a_hole_on_an_arm_comes_to_the_edge() {
