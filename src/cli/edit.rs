@@ -21,7 +21,7 @@ use std::path::{Path, PathBuf};
 /// Change dimensions of a figure and keep the figure, with proof, or say how far it can go
 ///
 /// The figure is the sketch in FILE, which should meet its dimensions, at least nearly. Only the dimensions named
-/// move, in proportion, and with them those that a FreeCAD file computes from them; all others stay.
+/// move, together, and with them those that a FreeCAD file computes from them; all others stay.
 #[derive(clap::Args)]
 #[command(after_long_help = "\
 Examples:

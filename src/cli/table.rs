@@ -22,11 +22,16 @@ struct Table {
 
 impl Table {
     fn read(file: &Path) -> Result<Self, String> {
-        let reader = csv::ReaderBuilder::new()
+        let text = fs::read_to_string(file).map_err(in_file(file))?;
+        // What comes behind # is a remark, on a line of its own or not.
+        let lines = text.lines().map(|line| match line.starts_with('#') {
+            true => "",
+            false => line.split_once(" #").map_or(line, |(line, _)| line),
+        });
+        let text = lines.collect::<Vec<_>>().join("\n");
+        let mut reader = csv::ReaderBuilder::new()
             .trim(csv::Trim::All)
-            .comment(Some(b'#'))
-            .from_path(file);
-        let mut reader = reader.map_err(in_file(file))?;
+            .from_reader(text.as_bytes());
         let cells = |record: &csv::StringRecord| record.iter().map(str::to_owned).collect();
         let names: Vec<String> = reader.headers().map(cells).map_err(in_file(file))?;
         let mut seen = HashSet::new();

@@ -313,7 +313,7 @@ pub fn edit_to_table(problem: &Problem, edited: &Edited, moved: Moved) -> String
     }
     out += &format!("tubes               {}\n", edited.tubes);
     out += &format!("rejected tubes      {}\n", edited.rejected);
-    out += &format!("length of the path  {:.4}\n", edited.length);
+    out += &format!("length of the path  {:.4}\n", edited.length.abs());
     out += &format!("seconds             {:.6}\n", edited.seconds);
     for (index, text) in edited.switched_on.iter().enumerate() {
         let label = if index == 0 { "switched on" } else { "" };

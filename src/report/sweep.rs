@@ -223,13 +223,20 @@ pub fn frames_to_csv(
         let all = values.as_ref().iter().chain(coordinates).chain(&measured);
         // What has no bounds is left empty.
         let cell = |x: &Interval| match x.wid().is_finite() {
-            true => (x.mid() + 0.0).to_string(),
+            true => within(*x).to_string(),
             false => String::new(),
         };
         let all: Vec<String> = all.map(cell).collect();
         out += &(all.join(",") + "\n");
     }
     out
+}
+
+/// The number with the fewest digits that is within these bounds.
+fn within(x: Interval) -> f64 {
+    let rounded = |digits: usize| format!("{:.digits$e}", x.mid()).parse::<f64>().ok();
+    let mut all = (0..17).filter_map(rounded);
+    all.find(|&y| x.contains(y)).unwrap_or_else(|| x.mid()) + 0.0
 }
 
 /// A name as a field of CSV (RFC 4180).

@@ -38,6 +38,27 @@ distances = [["b", "c", 5], ["a", "c", 6], ["a", "b", {length}]]
     )
 }
 
+/// A rectangle of which more is said than needed, in no place of its own: it moves as a whole and in no other way.
+#[test]
+fn a_whole_that_floats_does_not_move_in_itself() {
+    let text = "dimension = 2\n[points]\nA = [0,0]\nB = [4,0]\nC = [4,3]\nD = [0,3]\n[lines]\nab = [\"A\",\"B\"]\nbc = [\"B\",\"C\"]\n\
+                cd = [\"C\",\"D\"]\nda = [\"D\",\"A\"]\n[constraints]\nperpendicular = [[\"ab\",\"bc\"],[\"bc\",\"cd\"],[\"cd\",\"da\"]]\n\
+                parallel = [[\"ab\",\"cd\"]]\ndistances = [[\"A\",\"B\",4],[\"B\",\"C\",3],[\"A\",\"C\",5],[\"C\",\"D\",4]]\n";
+    let (text, _) = run("edit", text, &["--set", "A-B=5"]);
+    assert!(!text.contains("seems to move"), "{text}");
+}
+
+/// One constraint of which one equation is left out is left out in part.
+#[test]
+fn a_part_that_is_left_out_is_called_one() {
+    let text = "dimension = 2\n[points]\nA = [0,0]\nB = [4,0]\nC = [6,0]\nD = [9,0]\nE = [2,3]\n[lines]\nab = [\"A\",\"B\"]\n[constraints]\n\
+                collinear = [[\"A\",\"B\",\"C\",\"D\"]]\non = [[\"C\",\"ab\"]]\nparallel = [[\"A\",\"D\",\"B\",\"C\"]]\n\
+                distances = [[\"A\",\"B\",4],[\"A\",\"E\",4],[\"B\",\"E\",4],[\"B\",\"C\",2],[\"C\",\"D\",3]]\n";
+    let (text, _) = run("edit", text, &["--set", "C-D=4"]);
+    // D is on the line by one of the two alone.
+    assert!(text.contains("a part of `collinear: A, B, C, D`"), "{text}");
+}
+
 #[test]
 fn what_is_said_twice_is_tested_at_the_figures() {
     let (text, code) = run("solve", &link("5"), &[]);

@@ -106,6 +106,25 @@ fn where_a_part_is_too_much_the_whole_is_not_to_be_removed() {
     assert!(!text.contains("remove one"), "{text}");
 }
 
+/// Of a constraint that says two things one may follow from others: not all of it does, whatever can be removed as a whole.
+#[test]
+fn a_part_that_follows_is_not_the_whole() {
+    // C = (0, 5), D = (0, 0), E = (0, 1) meets both verticals, and E is not halfway.
+    let halfway = "dimension = 2\n[points]\nC = [3,5]\nD = [3,0]\nE = [3,2.5]\n[constraints]\nvertical = [[\"D\",\"E\"],[\"C\",\"E\"]]\n\
+                   midpoint = [[\"E\",\"C\",\"D\"]]\ndistances = [[\"C\",\"D\",5],[\"C\",\"E\",2.5]]\n";
+    let (_, text) = check(halfway);
+    assert!(
+        text.contains("`midpoint: E, C, D` in part follows, proved, from"),
+        "{text}"
+    );
+    // The axis need not be halfway for both of these.
+    let mirrored = "dimension = 2\n[points]\nA = [0,0]\nB = [0,4]\nC = [-2,1]\nD = [2,1]\n[lines]\nax = [\"A\",\"B\"]\n[constraints]\n\
+                    vertical = [\"ax\"]\nhorizontal = [[\"C\",\"D\"]]\nsymmetric = [[\"C\",\"D\",\"ax\"]]\n\
+                    distances = [[\"A\",\"B\",4],[\"C\",\"D\",4],[\"A\",\"C\",2.2360679775],[\"A\",\"D\",2.2360679775]]\n";
+    let (_, text) = check(mirrored);
+    assert!(text.contains("`symmetric: C, D, ax` in part "), "{text}");
+}
+
 #[test]
 fn nothing_follows_from_a_figure_that_is_singular() {
     let census = census(TANGENT);

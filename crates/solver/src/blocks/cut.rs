@@ -305,9 +305,19 @@ impl Cut {
         account
     }
 
-    /// What people call a row that was left out, by place.
+    /// What people call a row that was left out, by place: a part of a constraint of which other equations are used.
     pub fn name_left_out(&self, redundant: usize) -> String {
-        self.name(self.left_out(redundant).index)
+        let index = self.left_out(redundant).index;
+        let owner = self.owners[index];
+        let all = self.owners.iter().filter(|&&other| other == owner).count();
+        let out =
+            (0..self.redundant.len()).filter(|&k| self.owners[self.left_out(k).index] == owner);
+        let used = all - out.count();
+        let is_of_it = |row: &Row| self.owners[row.index] == owner;
+        match used > 0 && used > self.system.own_numbers(&self.told.0, is_of_it) {
+            true => format!("a part of {}", self.name(index)),
+            false => self.name(index),
+        }
     }
 
     /// A row that was left out, by place.

@@ -63,6 +63,29 @@ impl System {
         locate(&shapes, (own, poses), (d, unit), points, &value)
     }
 
+    /// How many numbers the rows of one constraint speak of that no other row has: unknowns that are no coordinates of points, and none
+    /// of an object's own (`objects`). Each takes one of its rows to say what it is.
+    pub(super) fn own_numbers(
+        &self,
+        objects: &[Vec<Entry>],
+        is_of_it: impl Fn(&Row) -> bool,
+    ) -> usize {
+        let is_object = |k: usize| objects.iter().flatten().any(|e| *e == Entry::Unknown(k));
+        let own = each_once(self.auxiliary.iter().enumerate().filter_map(|(k, &u)| {
+            let is_coordinate = self.coordinates.contains(&u);
+            (!is_coordinate && !is_object(k)).then_some(u)
+        }));
+        let is_its_own = |u: &usize| {
+            let mut with = self
+                .rows
+                .iter()
+                .filter(|row| row.unknowns.contains(u))
+                .peekable();
+            with.peek().is_some() && with.all(&is_of_it)
+        };
+        own.iter().filter(|u| is_its_own(u)).count()
+    }
+
     /// Ranks of the unknowns in a [choice](super::Choice) of what is held: coordinates of points come after others.
     pub fn later(&self) -> impl Fn(usize) -> u8 + use<> {
         let coordinates = each_once(self.coordinates.iter().copied());

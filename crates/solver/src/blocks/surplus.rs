@@ -16,7 +16,7 @@ use super::freedom::Freedom;
 use super::near::{LARGE, Near, What};
 use super::singular::Singular;
 use super::whose::Whose;
-use super::{LEAST_PART, System};
+use super::{LEAST_PART, Row, System};
 use crate::interval::{enclose_rational, point};
 use crate::order::{InOrder, add_new, each_once};
 use crate::problem::{Problem, list};
@@ -254,10 +254,9 @@ pub fn surplus(problem: &Problem) -> Result<Census, String> {
             good.map(|(owner, _)| owner).collect::<Vec<Whose>>()
         });
         // An equation that only says what a number is that it uses is none that is needed.
-        let in_part = match &cures {
-            Some(cures) => !cures.contains(&owner),
-            None => count < equations,
-        };
+        let is_of_it = |row: &Row| Whose::of(&problem, lowered.owners[row.index]) == owner;
+        let own = system.own_numbers(&lowered.tail.objects, is_of_it);
+        let in_part = count + own < equations;
         Surplus {
             name: owner.name(&problem),
             is_object: is_object(&owner),

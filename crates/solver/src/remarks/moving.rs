@@ -159,32 +159,30 @@ fn internal(
     if kept.len() <= whole {
         return None;
     }
-    // Motions of the whole, by what they do to coordinates.
+    // Motions of the whole, by what they do to coordinates; also where something is fixed, as a figure that turns about that stays what it is.
     let mut rigid: Vec<DVector<f64>> = Vec::new();
-    if whole > 0 {
-        let axes = (0..d).map(|k| (None, k));
-        let turns = (0..d).flat_map(|j| (0..j).map(move |k| (Some(j), k)));
-        for (j, k) in axes.chain(turns) {
-            let mut motion = DVector::zeros(width);
-            for place in system.coordinates.chunks(d) {
-                match j {
-                    None => motion[place[k]] = 1.0,
-                    Some(j) => {
-                        motion[place[j]] = -at[place[k]];
-                        motion[place[k]] = at[place[j]];
-                    }
+    let axes = (0..d).map(|k| (None, k));
+    let turns = (0..d).flat_map(|j| (0..j).map(move |k| (Some(j), k)));
+    for (j, k) in axes.chain(turns) {
+        let mut motion = DVector::zeros(width);
+        for place in system.coordinates.chunks(d) {
+            match j {
+                None => motion[place[k]] = 1.0,
+                Some(j) => {
+                    motion[place[j]] = -at[place[k]];
+                    motion[place[k]] = at[place[j]];
                 }
             }
-            for _ in 0..2 {
-                for other in &rigid {
-                    let along = motion.dot(other);
-                    motion.axpy(-along, other, 1.0);
-                }
+        }
+        for _ in 0..2 {
+            for other in &rigid {
+                let along = motion.dot(other);
+                motion.axpy(-along, other, 1.0);
             }
-            let size = motion.norm();
-            if size > 1e-9 {
-                rigid.push(motion / size);
-            }
+        }
+        let size = motion.norm();
+        if size > 1e-9 {
+            rigid.push(motion / size);
         }
     }
     let mut is_coordinate = vec![false; width];

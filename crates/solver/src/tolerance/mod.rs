@@ -162,7 +162,7 @@ pub fn study(
     ))
 }
 
-/// Where the figure comes to an end before the ends of its limits, in words, if a path does that leads the dimensions together, in proportion, to one side of
+/// Where the figure comes to an end before the ends of its limits, in words, if a path does that leads the dimensions together to one side of
 /// their limits: those that were cut where one figure was not proved to where that is, or all of them down or up.
 fn end(
     problem: &Problem,
@@ -198,11 +198,7 @@ fn end(
         };
         let to = told(&|k| way[k].1.decimal.to_string());
         let at = told(&|k| certain_digits(edited.dimensions[k].value));
-        let together = if way.len() > 1 {
-            " together, in proportion,"
-        } else {
-            ""
-        };
+        let together = if way.len() > 1 { " together," } else { "" };
         Some(format!(
             "led{together} towards {to}, it turns back at {at}, proved{}",
             edited.account.clause_behind()

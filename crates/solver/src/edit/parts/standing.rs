@@ -14,7 +14,7 @@ impl Parts {
         let count = self.cut.redundant.len();
         let contradicts = (0..count).find(|&k| self.is_contradiction(k, &at_rest));
         let contradict = |parts: &Self, k: usize, is_proved: bool| TooMany::Contradict {
-            name: parts.cut.name_left_out(k),
+            name: parts.cut.name(parts.cut.left_out(k).index),
             is_proved,
         };
         if let Some(k) = contradicts {
