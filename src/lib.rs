@@ -79,6 +79,7 @@
 //! - `decimal`: exact numbers as they are written
 //! - `residues`: numbers modulo a prime
 //! - [`interval`]: enclosures of exact numbers, bounds on rounding
+//! - `model`: Taylor models of the second order
 //! - `linalg`: dense kernels on small matrices, R-structured linear systems
 //! - `statement`: points, constraints and sketch of a problem, as plain data
 //! - [`constraint`]: what each kind of constraint means, and its equations

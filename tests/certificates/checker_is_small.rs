@@ -149,7 +149,7 @@ fn lines_of(folder: &str, allowed: &[&str]) -> usize {
     let mut lines = 0;
     for file in fs::read_dir(folder).unwrap() {
         let path = file.unwrap().path();
-        if path.is_dir() {
+        if path.is_dir() || path.ends_with("tests.rs") {
             continue;
         }
         let text = fs::read_to_string(&path).unwrap();
@@ -196,10 +196,27 @@ fn the_checks_of_covers_are_short_and_their_own() {
     let cover = "crates/solver/src/certificate/cover";
     // An example runs the search.
     assert!(lines_of(cover, &["problem", "constraint", "certificate"]) <= 120);
-    // Of certificates it has the bounds on intervals' halves, and a guess of an inverse.
-    let own = ["problem", "interval", "certificate"];
-    assert!(lines_of(&format!("{cover}/plan"), &own) <= 1480);
-    let kernel = ["problem", "constraint", "interval", "system", "certificate"];
+    // Taylor models are the kernel's, which searches use as well; a guess of an inverse may be made by anything.
+    assert!(lines_of("crates/kernel/src/model", &["interval"]) <= 550);
+    let own = [
+        "problem",
+        "interval",
+        "certificate",
+        "model",
+        "places",
+        "elimination",
+    ];
+    assert!(lines_of(&format!("{cover}/plan"), &own) <= 1565);
+    let kernel = [
+        "problem",
+        "constraint",
+        "interval",
+        "system",
+        "certificate",
+        "model",
+        "places",
+        "linalg",
+    ];
     // A quarter of it is about rotations of bodies, a tenth about equations that fall apart.
-    assert!(lines_of(&format!("{cover}/coordinates"), &kernel) <= 2440);
+    assert!(lines_of(&format!("{cover}/coordinates"), &kernel) <= 2390);
 }

@@ -51,6 +51,20 @@ fn are(found: &[Vec<f64>], wanted: &[Vec<f64>]) {
     }
 }
 
+/// 1/x may be as large as it likes until the circle is looked at, and is known to twelve digits as soon as that is so.
+#[test]
+fn quotients_are_complete() {
+    for (ratio, over) in [("1/3", 3.0), ("1/4", 4.0), ("0.42", 1.0 / 0.42), ("2", 0.5)] {
+        let text = format!(
+            "name = \"quotient\"\nequations = [\"x^2 + y^2 = 4\", \"y/x = {ratio}\"]\n[unknowns]\nx = 1.9\ny = 0.63\n"
+        );
+        let (found, is_complete) = real(&read(&text));
+        let y = 2.0 / 1f64.hypot(over);
+        assert!(is_complete, "{ratio}");
+        are(&found, &[vec![over * y, y], vec![-over * y, -y]]);
+    }
+}
+
 #[test]
 fn a_circle_and_a_hyperbola_meet_in_four_places() {
     let text = std::fs::read_to_string("docs/examples/circle-hyperbola.toml").unwrap();

@@ -70,6 +70,8 @@ pub mod linalg;
 #[doc(hidden)]
 pub mod map;
 #[doc(hidden)]
+pub mod model;
+#[doc(hidden)]
 pub mod order;
 #[doc(hidden)]
 pub mod places;

@@ -15,8 +15,8 @@ pub use krawl_tracker::{
 };
 #[doc(hidden)]
 pub use krawl_tracker::{
-    debug_in_words, decimal, elimination, hexadecimal, linalg, map, named, order, places, plan,
-    random, residues, sets, statement,
+    debug_in_words, decimal, elimination, hexadecimal, linalg, map, model, named, order, places,
+    plan, random, residues, sets, statement,
 };
 
 pub mod blocks;

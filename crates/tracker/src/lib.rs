@@ -11,8 +11,8 @@ extern crate self as krawl;
 
 #[doc(hidden)]
 pub use krawl_kernel::{
-    debug_in_words, decimal, elimination, hexadecimal, linalg, map, named, order, places, random,
-    residues, sets,
+    debug_in_words, decimal, elimination, hexadecimal, linalg, map, model, named, order, places,
+    random, residues, sets,
 };
 pub use krawl_kernel::{equations, interval, rational};
 

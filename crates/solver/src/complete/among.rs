@@ -1,7 +1,6 @@
 //! How many of all figures a path has, where that costs little.
 
 use super::choose::plans_within;
-use super::pairs::Pairs;
 use super::targets::Targets;
 use super::{Options, Status, all};
 use crate::problem::Problem;
@@ -41,7 +40,7 @@ pub fn among(problem: &Problem, outcome: &Outcome) -> Option<Among> {
         return None;
     }
     let targets = Targets::new(problem);
-    plans_within(&targets, &Pairs::new(&targets), MOST_PARAMETERS).ok()?;
+    plans_within(&targets, &targets.pairs(), MOST_PARAMETERS).ok()?;
     let options = Options {
         most_boxes: MOST_BOXES,
         threads: 1,

@@ -5,10 +5,12 @@
 //! and the later distances close, the more), so that samples decide.
 
 use super::Unserved;
-use super::pairs::Pairs;
-use super::plan::{HingeNumbers, Plan, Step, base_coordinates};
+use super::plan::{Plan, Step};
 use super::targets::Targets;
+use crate::certificate::cover::Pairs;
+use crate::certificate::cover::construct::{Hinge, base};
 use crate::certificate::cover::{Kind, Radius};
+use crate::model::Margin;
 use crate::order::InOrder;
 
 /// More driving parameters than this are hopeless.
@@ -58,7 +60,7 @@ fn bases(targets: &Targets) -> Vec<Vec<usize>> {
             }
         }
     }
-    out.retain(|base| base_coordinates(targets, base).is_some());
+    out.retain(|points| base(&|a, b| targets.square(a, b), points, Margin::Some).is_some());
     out
 }
 
@@ -254,12 +256,16 @@ impl<'a> Draft<'a> {
         if let [c1, c2] = standing[..]
             && self.targets.edge(c1, c2).is_some()
         {
+            let square = |a: usize, b: usize| self.targets.square(a, b);
             let third = (0..self.targets.points)
                 .filter(|&q| {
                     self.placed[q]
                         && self.targets.edge(c1, q).is_some()
                         && self.targets.edge(c2, q).is_some()
-                        && matches!(HingeNumbers::new(self.targets, p, [c1, c2, q]), Some(Ok(_)))
+                        && matches!(
+                            Hinge::new(&square, p, [c1, c2, q], Margin::Some),
+                            Some(Ok(_))
+                        )
                 })
                 .min_by_key(|&q| (self.depth[q], q));
             if let Some(q) = third {

@@ -1,7 +1,7 @@
 //! The cover of the search space, as the search leaves it for the check.
 
-use super::krawczyk::Figure;
 use super::search::Search;
+use crate::certificate::cover::Figure;
 use crate::certificate::cover::Mark;
 use crate::problem::Problem;
 use serde::{Deserialize, Serialize};

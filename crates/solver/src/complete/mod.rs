@@ -1,9 +1,9 @@
 //! All real solutions of a problem, proved complete.
 //!
 //! The figures that have the distances wanted are searched over the driving parameters of a construction
-//! plan, by branch and bound with Taylor models ([`model`]) that are rounded outwards: a part of the
+//! plan, by branch and bound with Taylor models that are rounded outwards: a part of the
 //! parameter space is given up only where a bound proves that it holds no figure, or where all its figures lie
-//! where Krawczyk's test in all coordinates has proved exactly one ([`krawczyk`]). What is proved, how, and
+//! where Krawczyk's test in all coordinates has proved exactly one ([`Frame`](crate::certificate::cover::Frame)). What is proved, how, and
 //! how fast it is: `docs/how/sets.md`.
 //!
 //! ```
@@ -28,16 +28,13 @@
 mod among;
 mod by_complex;
 mod choose;
-mod contract;
 mod coordinates;
 mod cover;
 mod emptiness;
 mod exact;
-mod krawczyk;
-mod model;
+mod newton;
 mod node;
 mod outcome;
-mod pairs;
 mod parts;
 mod pieces;
 mod place;
@@ -62,8 +59,8 @@ pub use store::Keep;
 pub use surplus::{Spare, Surplus, Tested};
 pub use visit::Why;
 
+use crate::certificate::cover::Pairs;
 use crate::problem::Problem;
-use pairs::Pairs;
 use pieces::Outline;
 use plan::Plan;
 use search::{Run, Search, Unfit};
@@ -136,7 +133,7 @@ fn by_plan(
     {
         return Ok(Complete::by_one_step(problem, step, begin));
     }
-    let pairs = Pairs::new(&targets);
+    let pairs = targets.pairs();
     let plans = match (choose::plans(&targets, &pairs), &in_words) {
         (Ok(plans), None) => plans,
         // A reason in words needs no search, but a cover does.

@@ -3,7 +3,7 @@
 use super::plan::Plan;
 
 /// Most symbols at a time: driving parameters and folds.
-pub const MAX_SYMBOLS: usize = 6;
+pub const MAX_SYMBOLS: usize = crate::model::SYMBOLS;
 /// Most steps with two places; two bits each.
 pub const MAX_SIGNED: usize = 64;
 

@@ -507,7 +507,7 @@ pub(super) fn are_apart(one: &Solution, other: &Solution) -> bool {
 
 /// A figure's box seen from reference points, in the problem's units. `None` if these may be in line.
 fn in_gauge(
-    figure: &super::krawczyk::Figure,
+    figure: &crate::certificate::cover::Figure,
     search: &Search,
     reference: &[usize],
 ) -> Option<Solution> {

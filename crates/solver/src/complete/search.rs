@@ -1,16 +1,16 @@
 //! The search: depth first, its parts on all threads, the answer the same for any number of them.
 
 use super::Options;
-use super::krawczyk::{Figure, Prover};
-use super::model::Number;
 use super::node::{MAX_SIGNED, MAX_SYMBOLS, Node};
-use super::pairs::Pairs;
-use super::place::{Known, Squares};
-use super::plan::{HingeNumbers, Meeting, Plan, base_coordinates};
+use super::place::Known;
+use super::plan::Plan;
 use super::targets::Targets;
 use super::visit::{Found, Rooms, Why, visit};
-use crate::certificate::cover::Kind;
+use crate::certificate::cover::Pairs;
+use crate::certificate::cover::construct::{Ahead, Hinge, base};
+use crate::certificate::cover::{Figure, Frame, Kind};
 use crate::linalg::damped;
+use crate::model::{Margin, Number};
 use crate::places::Each as _;
 use crate::track::Signs;
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
@@ -30,8 +30,8 @@ pub struct Search {
     pub known: Vec<Known>,
     /// Which of the steps with two places each step is, or `usize::MAX`.
     pub signed: Vec<usize>,
-    /// The negatives of the squared distances wanted.
-    pub minus_squares: Vec<Number>,
+    /// The squares of the distances wanted.
+    pub squares: Vec<Number>,
     /// For each step the signs that are asked for of its point and those before alone, as soon as there are two of them: mirror images are on no other
     /// footing.
     pub signs: Vec<Signs>,
@@ -39,7 +39,7 @@ pub struct Search {
     /// squared distance.
     pub pairs: Vec<Vec<(usize, [f64; 2])>>,
     /// The test in all coordinates.
-    pub prover: Prover,
+    pub frame: Frame,
     /// Symbols' ranges narrower than this are not halved.
     pub least_width: f64,
     /// Most symbols, folds included.
@@ -94,7 +94,8 @@ impl Search {
         {
             return Err(Unfit::Large);
         }
-        let base = base_coordinates(targets, &plan.base).ok_or(Unfit::Base)?;
+        let square = |a: usize, b: usize| targets.square(a, b);
+        let base = base(&square, &plan.base, Margin::Some).ok_or(Unfit::Base)?;
         let mut known = Vec::new();
         let mut signed = Vec::new();
         let mut count = 0;
@@ -107,17 +108,17 @@ impl Search {
                         .expect("an arm is a distance");
                     Known::Length(Number::new(targets.lengths[edge]))
                 }
-                Kind::Hinge(frame, _) => match HingeNumbers::new(targets, step.point, *frame) {
-                    Some(Ok(numbers)) => Known::Hinge(numbers),
-                    Some(Err(())) => return Err(Unfit::Empty(step.point)),
-                    None => return Err(Unfit::Hinge),
-                },
+                Kind::Hinge(frame, _) => {
+                    match Hinge::new(&square, step.point, *frame, Margin::Some) {
+                        Some(Ok(hinge)) => Known::Hinge(hinge),
+                        Some(Err(())) => return Err(Unfit::Empty(step.point)),
+                        None => return Err(Unfit::Hinge),
+                    }
+                }
                 Kind::Meet(centres) => {
                     *signed.last_mut().expect("just pushed") = count;
                     count += 1;
-                    let squares = Squares::new(targets, step.point, centres);
-                    let meeting = Meeting::new(targets, step.point, centres);
-                    Known::Meeting(meeting, count - 1, squares)
+                    Known::Meeting(Ahead::new(&square, step.point, centres), count - 1)
                 }
             });
         }
@@ -134,8 +135,8 @@ impl Search {
         Ok(Search {
             signs,
             pairs: bounded.collect(),
-            prover: Prover::new(targets, &plan),
-            minus_squares: targets.squares.iter().map(|&s| Number::new(-s)).collect(),
+            frame: targets.frame(&plan.base),
+            squares: targets.squares.iter().map(|&s| Number::new(s)).collect(),
             base: base.into_iter().map(|p| p.each(Number::new)).collect(),
             known,
             signed,
@@ -270,7 +271,7 @@ impl Search {
     /// Whether floats see a curve of figures through (or very near) this one: a small step along the
     /// direction in which the equations do not change, corrected, does not lead back.
     pub fn flexes(&self, guess: &[[f64; 3]]) -> bool {
-        let m = self.prover.m;
+        let m = self.frame.m;
         let mut x = guess.to_vec();
         if m == 0 || !self.settle(&mut x, 1e-11) {
             return false;
@@ -280,7 +281,7 @@ impl Search {
         };
         for sign in [1.0, -1.0] {
             let mut y = x.clone();
-            self.prover.moved(&mut y, direction.as_slice(), sign * 1e-2);
+            self.frame.moved(&mut y, direction.as_slice(), sign * 1e-2);
             let moved = |y: &[[f64; 3]]| {
                 let all = y.iter().flatten().zip(x.iter().flatten());
                 all.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
@@ -295,17 +296,17 @@ impl Search {
 
     /// The Jacobian, with (JᵀJ + ε)⁻¹.
     fn linearise(&self, x: &[[f64; 3]]) -> Option<(DMatrix<f64>, Cholesky<f64, Dyn>)> {
-        let (m, mut j) = (self.prover.m, Vec::new());
-        self.prover.jacobian(x, &mut j);
+        let (m, mut j) = (self.frame.m, Vec::new());
+        self.frame.jacobian(x, &mut j);
         let j = DMatrix::from_row_slice(m, m, &j);
         damped(&j, 1e-12).map(|normal| (j, normal))
     }
 
     /// Moves a figure to the nearest solution, or says that it does not get there.
     fn settle(&self, x: &mut [[f64; 3]], wanted: f64) -> bool {
-        let mut f = DVector::zeros(self.prover.m);
+        let mut f = DVector::zeros(self.frame.m);
         for _ in 0..25 {
-            self.prover.residual(x, f.as_mut_slice());
+            self.frame.residual(x, f.as_mut_slice());
             let size = f.amax();
             if size < wanted {
                 return true;
@@ -317,7 +318,7 @@ impl Search {
                 return false;
             };
             let step = normal.solve(&j.tr_mul(&f));
-            self.prover.moved(x, step.as_slice(), -1.0);
+            self.frame.moved(x, step.as_slice(), -1.0);
         }
         false
     }
@@ -326,7 +327,7 @@ impl Search {
     fn weakest(&self, x: &[[f64; 3]]) -> Option<DVector<f64>> {
         let (j, normal) = self.linearise(x)?;
         let start = |i: usize, _| ((i * 7919 + 13) % 101) as f64 / 50.0 - 1.0;
-        let mut v = DVector::from_fn(self.prover.m, start);
+        let mut v = DVector::from_fn(self.frame.m, start);
         for _ in 0..6 {
             // By inverse iteration.
             v = normal.solve(&v).normalize();

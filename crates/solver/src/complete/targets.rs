@@ -1,6 +1,7 @@
 //! What the search is about: points, and the squares of the distances wanted.
 
-use crate::interval::{Interval, hull, point};
+use crate::certificate::cover::{Frame, Pairs};
+use crate::interval::{Interval, point};
 use crate::problem::Problem;
 use crate::track::Signs;
 
@@ -72,9 +73,67 @@ impl Targets {
     pub fn square(&self, a: usize, b: usize) -> Option<Interval> {
         Some(self.squares[self.edge(a, b)?])
     }
+
+    /// Bounds of all distances, from those wanted alone.
+    ///
+    /// No figure has a distance outside of them, whatever the plan: a part in which two points that stand have such a
+    /// distance holds no figure, though no distance of the problem is between them.
+    pub fn pairs(&self) -> Pairs {
+        Pairs::new(self.points, &self.edges, &self.squares)
+    }
+
+    /// The equations of all coordinates that are free in a base.
+    pub fn frame(&self, base: &[usize]) -> Frame {
+        let size = (self.dimension, self.points);
+        Frame::new(size, &self.edges, &self.squares, base)
+    }
 }
 
-/// A lower bound of an interval that is known not to be negative, with the bound no lower than 0.
-pub fn not_negative(x: Interval) -> Interval {
-    hull(x.inf().max(0.0), x.sup().max(0.0))
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::problem::Problem;
+
+    #[test]
+    fn two_corners_of_a_kite_are_between_its_flat_shapes() {
+        let at = [
+            [0.0, 0.0],
+            [2.0, 0.0],
+            [1.0, 1.0],
+            [1.0, -2.0],
+            [1.0, -2.25],
+        ];
+        let names = ["a", "b", "c", "d", "e"];
+        let mut kite = Problem::build("kite", 2);
+        for (name, place) in names.iter().zip(at) {
+            kite = kite.point(name, place);
+        }
+        let kite = kite
+            .distance("a", "b", "2")
+            .squared_distance("a", "c", "2")
+            .squared_distance("b", "c", "2")
+            .squared_distance("a", "d", "5")
+            .squared_distance("b", "d", "5")
+            .distance("d", "e", "0.25")
+            .squared_distance("a", "e", "6.0625")
+            .finish()
+            .unwrap();
+        let targets = Targets::new(&kite);
+        let pairs = targets.pairs();
+        let (unit, root) = (targets.unit, 5f64.sqrt());
+        // c is 1 from the bar a-b and d is 2, on the same perpendicular; e is 0.25 from d.
+        for (p, q, least, most) in [
+            (2, 3, 1.0, 3.0),
+            (1, 4, root - 0.25, root + 0.25),
+            (2, 4, 0.75, 3.25),
+        ] {
+            let [lo, hi] = pairs.squares(p, q).map(|x| x.sqrt() * unit);
+            let [x, y] = [0, 1].map(|k: usize| at[p][k] - at[q][k]);
+            assert!(
+                lo <= x.hypot(y) + 1e-12 && x.hypot(y) - 1e-12 <= hi,
+                "{lo} {hi}"
+            );
+            assert!(least - 1e-9 < lo && hi < most + 1e-9, "{p} {q}: {lo} {hi}");
+        }
+    }
 }

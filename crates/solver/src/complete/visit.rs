@@ -1,17 +1,18 @@
 //! One part of the search space looked at: points are placed one after the other until an equation excludes the
 //! part, a figure is proved, or the part has to be parted.
 
-use super::contract::contract;
 use super::coordinates::{leave, leave_all};
 use super::cover::Marks;
-use super::krawczyk::Figure;
-use super::model::{Model, Range};
+use super::newton::prove;
 use super::node::{MAX_SYMBOLS, Node, Sign};
 use super::outcome::Part;
-use super::place::{Place, Placed, determinant, place, squared_distance};
+use super::place::{Placed, place};
 use super::search::Search;
+use crate::certificate::cover::Figure;
+use crate::certificate::cover::construct::{Place, beside, determinant, squared_distance};
 use crate::certificate::cover::{Left, Mark};
-use crate::places::array;
+use crate::model::{Margin, Model, Range, contract};
+use crate::places::Each as _;
 use crate::track::Stand;
 use serde::{Deserialize, Serialize};
 use std::any::Any;
@@ -111,13 +112,13 @@ impl Found {
 #[derive(Default)]
 pub struct Rooms([Option<Box<dyn Any + Send>>; MAX_SYMBOLS + 1]);
 
-/// What is kept of parts with S symbols.
-struct Room<const D: usize, const S: usize, const M: usize> {
+/// What is kept of parts with up to S symbols.
+struct Room<const S: usize, const M: usize> {
     /// The part.
     node: Node,
     /// So many steps of the plan stand in it, each in one place, and excluded nothing.
     standing: usize,
-    points: Vec<Place<D, S, M>>,
+    points: Vec<Place<S, M>>,
     /// The equations of the steps that stand.
     equations: Vec<Model<S, M>>,
     /// How many of them come before each step.
@@ -126,12 +127,11 @@ struct Room<const D: usize, const S: usize, const M: usize> {
     rows: Vec<Model<S, M>>,
 }
 
-impl<const D: usize, const S: usize, const M: usize> Room<D, S, M> {
+impl<const S: usize, const M: usize> Room<S, M> {
     fn new(search: &Search, node: &Node) -> Self {
-        let zero: Place<D, S, M> = [Model::ZERO; D];
-        let mut points = vec![zero; search.targets.points];
+        let mut points = vec![[Model::ZERO; 3]; search.targets.points];
         for (&p, place) in search.plan.base.iter().zip(&search.base) {
-            points[p] = array(|k| Model::constant(place[k]));
+            points[p] = [0, 1, 2].each(|k| Model::constant(place[k]));
         }
         Room {
             node: node.clone(),
@@ -164,11 +164,11 @@ impl<const D: usize, const S: usize, const M: usize> Room<D, S, M> {
     }
 }
 
-/// A part being looked at.
-struct Visit<'a, const D: usize, const S: usize, const M: usize> {
+/// A part being looked at, of up to S symbols.
+struct Visit<'a, const S: usize, const M: usize> {
     search: &'a Search,
     node: Node,
-    room: &'a mut Room<D, S, M>,
+    room: &'a mut Room<S, M>,
     /// Whether a point has two places at present.
     branched: bool,
     found: &'a mut Found,
@@ -184,26 +184,17 @@ pub fn visit(
     children: &mut Vec<Node>,
 ) {
     found.boxes += 1;
-    let run = match (search.targets.dimension, node.symbols) {
-        (2, 0) => Visit::<2, 0, 1>::run,
-        (2, 1) => Visit::<2, 1, 3>::run,
-        (2, 2) => Visit::<2, 2, 6>::run,
-        (2, 3) => Visit::<2, 3, 10>::run,
-        (2, 4) => Visit::<2, 4, 15>::run,
-        (2, 5) => Visit::<2, 5, 21>::run,
-        (2, _) => Visit::<2, 6, 28>::run,
-        (_, 0) => Visit::<3, 0, 1>::run,
-        (_, 1) => Visit::<3, 1, 3>::run,
-        (_, 2) => Visit::<3, 2, 6>::run,
-        (_, 3) => Visit::<3, 3, 10>::run,
-        (_, 4) => Visit::<3, 4, 15>::run,
-        (_, 5) => Visit::<3, 5, 21>::run,
-        (_, _) => Visit::<3, 6, 28>::run,
+    let run = match node.symbols {
+        0 | 1 => Visit::<1, 3>::run,
+        2 => Visit::<2, 6>::run,
+        3 => Visit::<3, 10>::run,
+        4 => Visit::<4, 15>::run,
+        _ => Visit::<6, 28>::run,
     };
     run(search, node, rooms, found, children);
 }
 
-impl<'a, const D: usize, const S: usize, const M: usize> Visit<'a, D, S, M> {
+impl<'a, const S: usize, const M: usize> Visit<'a, S, M> {
     fn run(
         search: &'a Search,
         node: Node,
@@ -211,12 +202,12 @@ impl<'a, const D: usize, const S: usize, const M: usize> Visit<'a, D, S, M> {
         found: &'a mut Found,
         children: &'a mut Vec<Node>,
     ) {
-        let room = rooms.0[S].get_or_insert_with(|| Box::new(Room::<D, S, M>::new(search, &node)));
-        let room: &mut Room<D, S, M> = room.downcast_mut().expect("one dimension to a search");
+        let room = rooms.0[S].get_or_insert_with(|| Box::new(Room::<S, M>::new(search, &node)));
+        let room: &mut Room<S, M> = room.downcast_mut().expect("the size is that of the place");
         room.standing = room.shared(search, &node);
         room.node = node.clone();
         let step = room.standing;
-        let mut visit = Visit::<D, S, M> {
+        let mut visit = Visit {
             search,
             node,
             room,
@@ -225,6 +216,17 @@ impl<'a, const D: usize, const S: usize, const M: usize> Visit<'a, D, S, M> {
             children,
         };
         visit.go(step);
+    }
+
+    /// How many symbols there are.
+    fn symbols(&self) -> usize {
+        self.node.symbols as usize
+    }
+
+    /// Notes what is found of the part.
+    fn mark(&mut self, mark: Mark) {
+        let symbols = self.symbols();
+        self.found.marks.put(mark, symbols);
     }
 
     /// Places the points from `step` on, the signs of the steps before being decided.
@@ -236,22 +238,18 @@ impl<'a, const D: usize, const S: usize, const M: usize> Visit<'a, D, S, M> {
         if step == search.plan.steps.len() {
             return self.finish();
         }
-        let known = &search.known[step];
-        let placed = place(&search.plan, &self.node, (step, known), &self.room.points);
-        match placed {
+        match place(search, &self.node, step, &self.room.points) {
             Placed::Here(here) => self.stand(step, here, None),
             Placed::Folded(here, equation) => self.stand(step, here, Some(equation)),
-            Placed::None => self.found.marks.put(Mark::NoPlace(step), S),
-            Placed::Either { middle, off } => {
-                self.found.marks.put(Mark::Sides(step), S);
+            Placed::None => self.mark(Mark::NoPlace(step)),
+            Placed::Either(places, height) => {
+                self.mark(Mark::Sides(step));
                 self.node.share *= 0.5;
                 let already = std::mem::replace(&mut self.branched, true);
                 for sign in [Sign::Plus, Sign::Minus] {
                     self.node.decide(sign);
-                    let here = array(|k| match sign {
-                        Sign::Plus => middle[k].plus(&off[k]),
-                        _ => middle[k].minus(&off[k]),
-                    });
+                    let factor = if sign == Sign::Plus { 1.0 } else { -1.0 };
+                    let here = beside(search.targets.dimension, &places, factor, &height);
                     self.stand(step, here, None);
                     self.node.forget();
                 }
@@ -271,7 +269,7 @@ impl<'a, const D: usize, const S: usize, const M: usize> Visit<'a, D, S, M> {
                         Some(Sign::Minus) => [-height, 0.0],
                         _ => [-height, height],
                     };
-                    self.found.marks.put(Mark::Fold(step, range), S);
+                    self.mark(Mark::Fold(step, range));
                     let k = search.plan.parameters();
                     self.children.push(self.node.folded(k, index, range));
                 } else {
@@ -283,12 +281,12 @@ impl<'a, const D: usize, const S: usize, const M: usize> Visit<'a, D, S, M> {
     }
 
     /// Puts the point of `step` in its place, with the equation of its fold, and looks at what that means for the equations.
-    fn stand(&mut self, step: usize, here: Place<D, S, M>, fold: Option<Model<S, M>>) {
+    fn stand(&mut self, step: usize, here: Place<S, M>, fold: Option<Model<S, M>>) {
         let search = self.search;
-        let now = &search.plan.steps[step];
+        let (now, d) = (&search.plan.steps[step], search.targets.dimension);
         let blur = here
             .iter()
-            .map(|x| x.r)
+            .map(|x| x.rest())
             .fold(0.0, crate::interval::rounding::largest);
         if !(blur <= BLURRED) {
             return self.part(step, true, movers(&here));
@@ -300,25 +298,26 @@ impl<'a, const D: usize, const S: usize, const M: usize> Visit<'a, D, S, M> {
         room.equations.extend(fold);
         for (place, &e) in now.closing.iter().enumerate() {
             let [a, b] = search.targets.edges[e];
-            let equation =
-                squared_distance(&room.points[a], &room.points[b]).shifted(search.minus_squares[e]);
+            let square = squared_distance(d, &room.points[a], &room.points[b]);
+            let equation = square.shifted(search.squares[e].negative());
             if equation.range().misses_zero(1.0) {
-                return self.found.marks.put(Mark::WrongDistance(step, place), S);
+                return self.mark(Mark::WrongDistance(step, place));
             }
             room.equations.push(equation);
         }
         room.before[step + 1] = room.equations.len();
         if let Some(other) = self.wrong_pair(step) {
-            return self.found.marks.put(Mark::WrongPair(step, other), S);
+            return self.mark(Mark::WrongPair(step, other));
         }
         if self.has_wrong_sign(step) {
             self.found.cut += 1;
             return;
         }
         if self.room.equations.len() > before {
-            let mut u = [Range { lo: -1.0, hi: 1.0 }; S];
-            if contract(&self.room.equations, &mut self.room.rows, &mut u).is_err() {
-                return self.found.marks.put(Mark::Excluded(step), S);
+            let mut u = [Range::SYMBOL; S];
+            let room = &mut *self.room;
+            if contract(&room.equations, &mut room.rows, &mut u, Margin::Some).is_err() {
+                return self.mark(Mark::Excluded(step));
             }
             let last = step + 1 == search.plan.steps.len();
             if self.shrink(step, &u, if last { 0.5 } else { SHRUNK }, last) {
@@ -330,15 +329,17 @@ impl<'a, const D: usize, const S: usize, const M: usize> Visit<'a, D, S, M> {
 
     /// A point that all over the part is nearer to or farther from the one of `step` than they are in any figure.
     fn wrong_pair(&self, step: usize) -> Option<usize> {
+        let d = self.search.targets.dimension;
         let here = &self.room.points[self.search.plan.steps[step].point];
         let wrong = |&&(other, [least, most]): &&(usize, [f64; 2])| {
             let there = &self.room.points[other];
             // Where the middle of the part is in order, the whole is not wrong.
-            let middle: f64 = (0..D).map(|k| (here[k].c[0] - there[k].c[0]).powi(2)).sum();
+            let off = (0..d).map(|k| (here[k].middle() - there[k].middle()).powi(2));
+            let middle: f64 = off.sum();
             if least <= middle && middle <= most {
                 return false;
             }
-            let range = squared_distance(here, there).range();
+            let range = squared_distance(d, here, there).range();
             range.lo > most + 1e-9 || range.hi < least - 1e-9
         };
         let found = self.search.pairs[step].iter().find(wrong);
@@ -348,7 +349,8 @@ impl<'a, const D: usize, const S: usize, const M: usize> Visit<'a, D, S, M> {
     /// Whether all figures in the part have a wrong sign, as far as their points stand.
     fn has_wrong_sign(&self, step: usize) -> bool {
         let points = &self.room.points;
-        let sign = |simplex: &[usize]| determinant(points, simplex).range().sign(1.0);
+        let d = self.search.targets.dimension;
+        let sign = |simplex: &[usize]| determinant(d, points, simplex).range().sign(1.0);
         self.search.signs[step].stand(sign) == Stand::Wrong
     }
 
@@ -361,7 +363,7 @@ impl<'a, const D: usize, const S: usize, const M: usize> Visit<'a, D, S, M> {
         }
         let mut child = self.node.clone();
         let mut all = [Left::default(); MAX_SYMBOLS];
-        for i in 0..S {
+        for i in 0..self.symbols() {
             let (middle, reach) = self.node.middle(i);
             // A little more than what is left, so that who checks it comes to less.
             let at = |x: f64, out: f64| middle + reach * (x + out * 1e-6);
@@ -371,7 +373,7 @@ impl<'a, const D: usize, const S: usize, const M: usize> Visit<'a, D, S, M> {
             [child.lo[i], child.hi[i]] = all[i].range;
         }
         child.depth = child.depth.saturating_add(1);
-        self.found.marks.put(Mark::Within(step, all), S);
+        self.mark(Mark::Within(step, all));
         self.children.push(child);
         true
     }
@@ -387,16 +389,16 @@ impl<'a, const D: usize, const S: usize, const M: usize> Visit<'a, D, S, M> {
         let search = self.search;
         let step = search.plan.steps.len().wrapping_sub(1);
         let reach = self.reach();
-        if reach < NEAR || S == 0 {
+        if reach < NEAR || self.symbols() == 0 {
             let guess: Vec<[f64; 3]> = self
                 .room
                 .points
                 .iter()
-                .map(|p| array(|k| if k < D { p[k].c[0] } else { 0.0 }))
+                .map(|p| [0, 1, 2].each(|k| p[k].middle()))
                 .collect();
-            match search.prover.prove(&guess) {
+            match prove(&search.frame, &guess) {
                 Some(figure) if self.is_alone(&figure) => {
-                    self.found.marks.put(Mark::Figure, S);
+                    self.mark(Mark::Figure);
                     self.found.figures.push(figure);
                     return;
                 }
@@ -412,11 +414,13 @@ impl<'a, const D: usize, const S: usize, const M: usize> Visit<'a, D, S, M> {
 
     /// Whether all figures of this part lie where this one is alone.
     fn is_alone(&self, figure: &Figure) -> bool {
-        let limit = figure.alone * (1.0 - 1e-6);
+        // Of the same figure, found once more, the check may know a little less, or more.
+        let limit = 0.8 * figure.alone;
         let points = self.room.points.iter();
+        let near = |p: &Model<S, M>, at: f64| (p.middle() - at).abs() + p.reach() < limit;
         points
             .zip(&figure.centre)
-            .all(|(p, at)| (0..D).all(|k| (p[k].c[0] - at[k]).abs() + p[k].reach() < limit))
+            .all(|(p, at)| (0..self.search.targets.dimension).all(|k| near(&p[k], at[k])))
     }
 
     /// Parts this part in the symbol of the greatest weight, the signs of the steps up to this one
@@ -424,7 +428,7 @@ impl<'a, const D: usize, const S: usize, const M: usize> Visit<'a, D, S, M> {
     fn part(&mut self, step: usize, with: bool, weights: [f64; S]) {
         let search = self.search;
         let mut best: Option<(usize, f64)> = None;
-        for i in 0..S {
+        for i in 0..self.symbols() {
             let width = self.node.hi[i] - self.node.lo[i];
             let least = search.least_width * (1.0 + self.node.lo[i].abs());
             let weight = if weights[i].is_finite() {
@@ -439,7 +443,7 @@ impl<'a, const D: usize, const S: usize, const M: usize> Visit<'a, D, S, M> {
         let Some((symbol, _)) = best else {
             return self.found.leave(self.node.share, Why::Small);
         };
-        self.found.marks.put(Mark::Halves(step, with, symbol), S);
+        self.mark(Mark::Halves(step, with, symbol));
         self.children.extend(self.node.parted(symbol));
     }
 }

@@ -12,8 +12,8 @@ pub mod coordinates;
 mod lines;
 mod plan;
 
-pub(crate) use plan::closing;
 pub use plan::{Cover, Kind, Left, MAX_SYMBOLS, Mark, Radius};
+pub(crate) use plan::{Figure, Frame, Pairs, alone, alone_within, closing, construct};
 
 use super::Compared;
 use super::format::TAG_COVER_OF_COORDINATES;

@@ -11,6 +11,7 @@ use crate::certificate::cover::coordinates::{
     Block, Body, Case, Change, CoordinateCover, Half, Mark, Part, Space, Turn, Turned,
 };
 use crate::interval::{Interval, ZERO};
+use crate::model::Margin;
 use crate::problem::Problem;
 use crate::system::Homotopy;
 use std::rc::Rc;
@@ -249,7 +250,7 @@ impl Writer<'_> {
             return self.leave_turned();
         };
         while let Some(look) = self.space.look(body, &part, &turn) {
-            let Some(left) = look.contracted() else {
+            let Some(left) = look.left(Margin::None) else {
                 return;
             };
             let widths = turn.ranges().iter().map(|x| x.wid());
@@ -276,7 +277,7 @@ impl Writer<'_> {
                 .ranges()
                 .iter()
                 .zip(&left)
-                .map(|(_, u)| 0.5 * u.wid())
+                .map(|(_, u)| 0.5 * (u.hi - u.lo))
                 .product();
             if kept < 0.3
                 && let Some(narrowed) = turn.within(&left)
@@ -285,11 +286,11 @@ impl Writer<'_> {
                 turn = narrowed;
                 continue;
             }
-            if !look.is_told()
+            if let Some(axis) = look.untold
                 && widest < FINE
-                && let Some(higher) = self.space.with_height(body, &turn, look.untold)
+                && let Some(higher) = self.space.with_height(body, &turn, axis)
             {
-                self.put_turned(Turned::Height(look.untold));
+                self.put_turned(Turned::Height(axis));
                 turn = higher;
                 continue;
             }

@@ -38,7 +38,6 @@ mod tally;
 mod test;
 
 use super::outcome::{Method, too_long};
-use super::pairs::Pairs;
 use super::search::Run as Watched;
 use super::spare::make_square;
 use super::store::{Keep, Store};
@@ -298,7 +297,7 @@ fn blocks(system: &System) -> Vec<Cut> {
 
 /// Adds the bounds of the distances of all pairs that follow from the distances given.
 fn bound_pairs(system: &mut System, homotopy: &Homotopy, targets: &Targets) {
-    let pairs = Pairs::new(targets);
+    let pairs = targets.pairs();
     // Both units are powers of two.
     let scale = targets.unit / homotopy.unit;
     let scale = scale * scale;

@@ -1,8 +1,8 @@
 //! The equations of a block together: what their linear combinations leave of a box, and Krawczyk's test.
 
 use super::system::Row;
+use crate::certificate::cover::alone;
 use crate::certificate::cover::coordinates::Empty;
-use crate::complete::krawczyk::alone;
 use crate::elimination::invert;
 use crate::interval::rounding::{largest, round_up};
 use crate::interval::{Interval, ZERO, around, point};

@@ -198,10 +198,10 @@ impl<'s, 'a> Piece<'s, 'a> {
             }
             contract(self.rows, &block.is_free, x)?;
             if !far(self.rows, &block.is_free, x)? {
-                return Ok(false);
+                break;
             }
         }
-        Ok(false)
+        Ok(square.is_bounded(x))
     }
 
     /// Narrows a leaf by all equations together, where it is small or is all that is left. It is empty, too, where it has no zeros but such as are known.

@@ -1,7 +1,7 @@
 //! Krawczyk's test where numbers are anywhere in ranges: each unknown in a unit of its own, as the ranges move one much more than another.
 
 use super::newton::{KNOWN, Square, Zero};
-use crate::complete::krawczyk::alone_within;
+use crate::certificate::cover::alone_within;
 use crate::equations::Form;
 use crate::interval::rounding::largest;
 use crate::interval::{Interval, ZERO, point};

@@ -8,6 +8,7 @@
 pub mod bounds;
 mod format;
 mod independent;
+pub(crate) mod legs;
 mod shared;
 mod space;
 pub mod sums;
@@ -18,16 +19,18 @@ pub use format::{
     Block, Body, Case, Change, CoordinateCover, Half, Image, Independent, Mark, Turned,
 };
 pub use independent::Slice;
+pub use legs::Look;
 pub use shared::Shared;
 pub use space::{Empty, Part, ROUNDS};
 pub use symmetry::{changes, signs_changed};
-pub use turns::{Look, Turn};
+pub use turns::Turn;
 
 use super::{CoverError, CoverStage, CoverVerdict, ENDED};
 use crate::certificate::checker::equations::Equations;
 use crate::certificate::checker::place::Place;
 use crate::constraint::{self, Symmetry};
 use crate::interval::point;
+use crate::model::Margin;
 use crate::problem::Problem;
 use crate::system::Homotopy;
 use independent::Apart;
@@ -499,7 +502,7 @@ impl Check<'_> {
     fn turn(&mut self, part: Rc<Part>, body: usize, mut turn: Turn) -> Result<bool, &'static str> {
         let space = &self.space;
         while let Some(look) = space.look(body, &part, &turn) {
-            let Some(left) = look.contracted() else {
+            let Some(left) = look.left(Margin::None) else {
                 break;
             };
             let mark = Turned::read(&self.cover.marks, self.at).ok_or(DAMAGED)?;

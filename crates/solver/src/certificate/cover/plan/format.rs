@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use std::fmt::Write;
 
 /// Most symbols at a time.
-pub const MAX_SYMBOLS: usize = 6;
+pub const MAX_SYMBOLS: usize = crate::model::SYMBOLS;
 
 /// How far a new point is from one that stands.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]

@@ -1,13 +1,12 @@
-//! The problem and the plan, and where the plan's steps put their points.
+//! The problem and the plan, found to be in order.
 
+use super::construct::{self, Ahead, Hinge};
 use super::format::{Cover, Kind, Radius};
-use super::model::Model;
 use super::pairs::Pairs;
 use crate::interval::{Interval, point};
+use crate::model::{self, Margin, Number, SYMBOLS};
+use crate::places::Each as _;
 use crate::problem::Problem;
-
-/// A point, or a difference of points.
-pub type Place = [Model; 3];
 
 /// The problem in the unit of the cover, and the plan, found to be in order.
 pub struct Plan<'a> {
@@ -29,6 +28,13 @@ pub struct Plan<'a> {
     pub closing: Vec<Vec<usize>>,
 }
 
+/// A function of as many symbols as there may be.
+pub type Model = model::Model<SYMBOLS, 28>;
+/// A point.
+pub type Place = construct::Place<SYMBOLS, 28>;
+/// A point with two places.
+pub type Meeting<'p> = construct::Meeting<'p, SYMBOLS, 28>;
+
 /// A part of the search space.
 #[derive(Debug, Clone)]
 pub struct Node {
@@ -49,16 +55,6 @@ impl Node {
         let reach = (hi - middle).max(middle - lo);
         (middle, if reach > 0.0 { reach.next_up() } else { 0.0 })
     }
-}
-
-/// What placing a point in general comes to: the point is at `middle` ± `normal` √`square`.
-pub struct Meeting {
-    /// The middle between the two places.
-    pub middle: Option<Place>,
-    /// The normal over its squared length.
-    pub normal: Option<Place>,
-    /// The squared height times the squared length of the normal.
-    pub square: Model,
 }
 
 impl<'a> Plan<'a> {
@@ -108,19 +104,8 @@ impl<'a> Plan<'a> {
         if base.len() != self.dimension || base.iter().any(|&p| p >= self.points) {
             return None;
         }
-        let zero = point(0.0);
-        let a = self.square(base[0], base[1])?;
-        self.base = vec![[zero; 3], [a.sqrt(), zero, zero]];
-        if let Some(&c) = base.get(2) {
-            let (r1, r2) = (self.square(base[0], c)?, self.square(base[1], c)?);
-            let x = (r1 - r2 + a) / (point(2.0) * a.sqrt());
-            let height = r1 - x.sqr();
-            if !(height.inf() > 0.0) {
-                return None;
-            }
-            self.base.push([x, height.sqrt(), zero]);
-        }
-        (a.inf() > 0.0).then_some(())
+        self.base = construct::base(&|a, b| self.square(a, b), base, Margin::None)?;
+        Some(())
     }
 
     fn follow(&mut self) -> Option<()> {
@@ -241,154 +226,53 @@ impl<'a> Plan<'a> {
         (0..1usize << free.len()).map(root).collect()
     }
 
-    fn angle(&self, node: &Node, parameter: usize) -> [Model; 2] {
-        let (middle, radius) = node.middle(parameter);
-        let sign = if node.halves[parameter] { -1.0 } else { 1.0 };
-        Model::rotation(node.ranges.len(), parameter, middle, radius).map(|x| x.by(point(sign)))
-    }
-
     /// The place of an arm's or hinge's point.
     pub fn driven(&self, step: usize, node: &Node, points: &[Place]) -> Option<Place> {
         let (new, kind) = &self.cover.steps[step];
+        let angle = |i: usize| construct::angle(i, node.middle(i), node.halves[i]);
         match kind {
             Kind::Arm(centre, parameter) => {
-                let length = self.square(*new, *centre)?.sqrt();
-                let [cos, sin] = self.angle(node, *parameter);
-                let c = &points[*centre];
-                Some([c[0].plus(length, &cos), c[1].plus(length, &sin), c[2]])
+                let length = Number::new(self.square(*new, *centre)?.sqrt());
+                Some(construct::arm(&points[*centre], length, &angle(*parameter)))
             }
-            Kind::Hinge([c1, c2, q], parameter) => {
-                let a2 = self.square(*c1, *c2)?;
-                let foot = |p: usize| -> Option<(Interval, Interval)> {
-                    let (r1, r2) = (self.square(*c1, p)?, self.square(*c2, p)?);
-                    let part = (r1 - r2 + a2) / (point(2.0) * a2);
-                    Some((part, r1 - part.sqr() * a2))
-                };
-                let ((along, height), (third, third_height)) = (foot(*new)?, foot(*q)?);
-                if !(third_height.inf() > 0.0 && height.sup() >= 0.0) {
-                    return None;
-                }
-                let height = crate::interval::hull(height.inf().max(0.0), height.sup());
-                let side = (height / third_height).sqrt();
-                let a = minus(&points[*c2], &points[*c1]);
-                let v = plus(&minus(&points[*q], &points[*c1]), -third, &a);
-                let [cos, sin] = self.angle(node, *parameter);
-                let up = cross(&a, &v);
-                let here = plus(&points[*c1], along, &a);
-                Some(std::array::from_fn(|k| {
-                    here[k]
-                        .plus(side, &v[k].times(&cos))
-                        .plus(side / a2.sqrt(), &up[k].times(&sin))
-                }))
+            Kind::Hinge(frame, parameter) => {
+                let square = |a: usize, b: usize| self.square(a, b);
+                let hinge = Hinge::new(&square, *new, *frame, Margin::None)?.ok()?;
+                Some(hinge.place(frame.each(|p| &points[p]), &angle(*parameter)))
             }
             Kind::Meet(_) => None,
         }
     }
 
-    /// With A = |a|², B = |b|², C = a·b of the centres' differences, q₁ = a·(p − c₁), q₂ = b·(p − c₁):
-    /// p = c₁ + ((q₁B − q₂C) a + (q₂A − q₁C) b ± √N n)/Δ, Δ = AB − C², N = r₁²Δ − (q₁²B − 2q₁q₂C + q₂²A), n = a × b;
-    /// in the plane Δ = A, N = r₁²A − q₁², n = a turned by a right angle.
-    pub fn meet(&self, step: usize, node: &Node, points: &[Place]) -> Option<Meeting> {
+    /// The two places of a step's point and its height over their middle, whose square is `square`.
+    pub fn places(
+        &self,
+        step: usize,
+        points: &[Place],
+        meeting: &Meeting,
+    ) -> Option<([Place; 2], Model)> {
         let (new, Kind::Meet(centres)) = self.cover.steps.get(step)? else {
             return None;
         };
-        let s = node.ranges.len();
-        let radius = |k: usize| -> Option<Model> {
-            Some(match centres[k].1 {
-                Radius::Given => Model::constant(s, self.square(*new, centres[k].0)?),
-                Radius::Parameter(i) => {
-                    let (middle, reach) = node.middle(i);
-                    Model::symbol(s, i, middle, reach)
-                }
-            })
-        };
-        let at = |k: usize| &points[centres[k].0];
-        let given = |i: usize, j: usize| {
-            self.square(centres[i].0, centres[j].0)
-                .map(|x| Model::constant(s, x))
-        };
-        let (minus_one, half) = (point(-1.0), point(0.5));
-        let a = minus(at(1), at(0));
-        let (r1, big_a) = (radius(0)?, given(0, 1).unwrap_or_else(|| dot(&a, &a)));
-        let q1 = r1
-            .plus(minus_one, &radius(1)?)
-            .plus(point(1.0), &big_a)
-            .by(half);
-        if self.dimension == 2 {
-            let square = r1.times(&big_a).plus(minus_one, &q1.times(&q1));
-            let over = big_a.reciprocal();
-            let turned = [a[1].by(minus_one), a[0], a[2]];
-            let middle = over.map(|over| {
-                let along = q1.times(&over);
-                std::array::from_fn(|k| at(0)[k].plus(point(1.0), &a[k].times(&along)))
-            });
-            let normal = over.map(|over| turned.map(|x| x.times(&over)));
-            return Some(Meeting {
-                middle,
-                normal,
-                square,
-            });
-        }
-        let b = minus(at(2), at(0));
-        let big_b = given(0, 2).unwrap_or_else(|| dot(&b, &b));
-        let c = match given(1, 2) {
-            Some(third) => big_a
-                .plus(point(1.0), &big_b)
-                .plus(minus_one, &third)
-                .by(half),
-            None => dot(&a, &b),
-        };
-        let q2 = r1
-            .plus(minus_one, &radius(2)?)
-            .plus(point(1.0), &big_b)
-            .by(half);
-        let delta = big_a.times(&big_b).plus(minus_one, &c.times(&c));
-        let first = q1.times(&big_b).plus(minus_one, &q2.times(&c));
-        let second = q2.times(&big_a).plus(minus_one, &q1.times(&c));
-        let square = r1
-            .times(&delta)
-            .plus(minus_one, &first.times(&q1))
-            .plus(minus_one, &second.times(&q2));
-        let over = delta.reciprocal();
-        let n = cross(&a, &b);
-        let middle = over.map(|over| {
-            let (x, y) = (first.times(&over), second.times(&over));
-            std::array::from_fn(|k| {
-                at(0)[k]
-                    .plus(point(1.0), &a[k].times(&x))
-                    .plus(point(1.0), &b[k].times(&y))
-            })
-        });
-        let normal = over.map(|over| n.map(|x| x.times(&over)));
-        Some(Meeting {
-            middle,
-            normal,
-            square,
+        Some(match Ahead::new(&|a, b| self.square(a, b), *new, centres) {
+            Ahead::Rigid(numbers) => numbers.places(centres, points),
+            _ => {
+                let height = meeting.square.square_root(meeting.square.range());
+                (meeting.places(&meeting.over()), height)
+            }
         })
     }
-}
 
-/// a − b.
-pub fn minus(a: &Place, b: &Place) -> Place {
-    plus(a, point(-1.0), b)
-}
-
-/// a + k b.
-fn plus(a: &Place, factor: Interval, b: &Place) -> Place {
-    std::array::from_fn(|k| a[k].plus(factor, &b[k]))
-}
-
-/// a · b.
-pub fn dot(a: &Place, b: &Place) -> Model {
-    let one = point(1.0);
-    a[0].times(&b[0])
-        .plus(one, &a[1].times(&b[1]))
-        .plus(one, &a[2].times(&b[2]))
-}
-
-fn cross(a: &Place, b: &Place) -> Place {
-    std::array::from_fn(|k| {
-        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-        a[i].times(&b[j]).plus(point(-1.0), &a[j].times(&b[i]))
-    })
+    /// Where the point of a step with two places is.
+    pub fn meet<'p>(&self, step: usize, node: &Node, points: &'p [Place]) -> Option<Meeting<'p>> {
+        let (new, Kind::Meet(centres)) = self.cover.steps.get(step)? else {
+            return None;
+        };
+        let square = |a: usize, b: usize| self.square(a, b).map(Number::new);
+        let parameter = |i: usize| {
+            let (middle, reach) = node.middle(i);
+            Model::symbol(i, middle, reach)
+        };
+        Meeting::new(square, *new, centres, points, parameter)
+    }
 }

@@ -1,25 +1,24 @@
 //! The check of covers of parameter spaces, which searches by a construction plan leave.
 //!
 //! A cover says of every part of the parameter space why it holds no figure but those listed. Here each reason is
-//! proved again, with models, geometry and Krawczyk's test of their own. Which parts there are follows from the marks alone, so
+//! proved again, by the constructions and models that the search has ([`construct`], [`crate::model`]), and one test of Krawczyk ([`Frame`]). Which parts there are follows from the marks alone, so
 //! that they are read one after the other, and proved side by side.
 
-mod contract;
+pub mod construct;
 mod figure;
 mod format;
 mod geometry;
-mod model;
 mod pairs;
 mod parts;
 mod proof;
 
-pub use contract::contracted;
 pub use format::{Cover, Kind, Left, MAX_SYMBOLS, Mark, Radius};
-pub use model::Model;
 
 use super::{CoverError, CoverStage, CoverVerdict, ENDED};
 use crate::problem::Problem;
-use figure::Figure;
+pub use figure::{Figure, Frame, alone, alone_within};
+pub use pairs::Pairs;
+
 use geometry::Plan;
 use parts::{Part, Parts};
 use proof::Proof;
@@ -85,14 +84,15 @@ fn check(
 
 /// The figures that are listed, each proved to exist, no two the same up to a reflection.
 fn figures(plan: &Plan) -> Result<Vec<Figure>, String> {
+    let size = (plan.dimension, plan.points);
+    let frame = Frame::new(size, &plan.edges, &plan.squares, &plan.cover.base);
     let mut figures: Vec<Figure> = Vec::new();
     for (index, centre) in plan.cover.figures.iter().enumerate() {
-        let figure = figure::prove(plan, centre)
+        let figure = frame
+            .prove(centre)
             .ok_or_else(|| format!("solution {} is not proved to exist", index + 1))?;
         let image = figure.mirrored(plan.dimension);
-        let apart = |known: &Figure| {
-            known.is_apart(centre, figure.radius) && known.is_apart(&image, figure.radius)
-        };
+        let apart = |known: &Figure| known.is_apart(&figure) && known.is_apart(&image);
         if let Some(same) = figures.iter().position(|known| !apart(known)) {
             return Err(format!(
                 "the solutions {} and {} may be the same",

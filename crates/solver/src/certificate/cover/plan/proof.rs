@@ -1,13 +1,15 @@
 //! The proof of what marks claim of one part.
 
-use super::contract::contracted;
+use super::construct::{beside, squared_distance};
 use super::figure::Figure;
-use super::format::Mark;
-use super::geometry::{Node, Place, Plan, dot, minus};
-use super::model::Model;
+use super::format::{MAX_SYMBOLS, Mark};
+use super::geometry::{Model, Node, Place, Plan};
 use super::parts::{Claim, Part};
 use crate::certificate::checker::matrix::exact;
-use crate::interval::{Interval, hull, point};
+use crate::interval::rounding::round_up;
+use crate::interval::{hull, point};
+use crate::model::{Empty, Margin, Number, Range, contract};
+use crate::places::Each as _;
 
 /// What claims are proved with.
 pub struct Proof<'a> {
@@ -24,6 +26,15 @@ struct Standing {
     points: Vec<Place>,
     /// Of the points that stand.
     equations: Vec<Model>,
+}
+
+impl Standing {
+    /// What the equations leave of the symbols' ranges.
+    fn left(&self) -> Result<[Range; MAX_SYMBOLS], Empty> {
+        let mut u = [Range::SYMBOL; MAX_SYMBOLS];
+        contract(&self.equations, &mut Vec::new(), &mut u, Margin::None)?;
+        Ok(u)
+    }
 }
 
 /// The number of smaller parts of a part of which a claim is tried, where it is not proved at once of the whole.
@@ -76,11 +87,9 @@ impl<'a> Proof<'a> {
     }
 
     fn at_once(&self, claim: &Claim, node: &Node) -> bool {
-        let symbols = node.ranges.len();
-        let zero = std::array::from_fn(|_| Model::constant(symbols, point(0.0)));
-        let mut points = vec![zero; self.plan.points];
+        let mut points = vec![[Model::ZERO; 3]; self.plan.points];
         for (&p, place) in self.plan.cover.base.iter().zip(&self.plan.base) {
-            points[p] = place.map(|x| Model::constant(symbols, x));
+            points[p] = place.each(|x| Model::constant(Number::new(x)));
         }
         let mut standing = Standing {
             node: node.clone(),
@@ -121,7 +130,7 @@ impl<'a> Proof<'a> {
     /// Places the next step's point, its side being decided.
     fn stand(&self, at: &mut Standing) -> Option<()> {
         let (plan, step, node) = (self.plan, at.step, &at.node);
-        let (symbols, points) = (node.ranges.len(), &mut at.points);
+        let (d, points) = (plan.dimension, &mut at.points);
         let new = plan.cover.steps[step].0;
         points[new] = if !plan.is_signed(step) {
             plan.driven(step, node, points)?
@@ -129,25 +138,24 @@ impl<'a> Proof<'a> {
             let index = plan.sign(step);
             let sign = *node.signs.get(index)?;
             let meeting = plan.meet(step, node, points)?;
-            let (middle, normal) = (meeting.middle?, meeting.normal?);
-            let height = if sign == 0 {
+            let (places, height) = if sign == 0 {
                 let folds = node.signs[..index].iter().filter(|&&s| s == 0).count();
                 let symbol = plan.cover.drives.len() + folds;
                 let (centre, reach) = node.middle(symbol);
-                let w = Model::symbol(symbols, symbol, centre, reach);
-                let equation = meeting.square.plus(point(-1.0), &w.times(&w));
-                at.equations.push(equation);
-                w
+                let w = Model::symbol(symbol, centre, reach);
+                at.equations.push(meeting.square.minus(&w.squared()));
+                (meeting.places(&meeting.over()), w)
             } else {
-                meeting.square.square_root()?.by(point(f64::from(sign)))
+                plan.places(step, points, &meeting)?
             };
-            std::array::from_fn(|k| middle[k].plus(point(1.0), &normal[k].times(&height)))
+            let side = if sign < 0 { -1.0 } else { 1.0 };
+            beside(d, &places, side, &height)
         };
         for &e in &plan.closing[step] {
             let [a, b] = plan.edges[e];
-            let d = minus(&points[a], &points[b]);
-            let wanted = Model::constant(symbols, plan.squares[e]);
-            at.equations.push(dot(&d, &d).plus(point(-1.0), &wanted));
+            let square = squared_distance(d, &points[a], &points[b]);
+            at.equations
+                .push(square.shifted(Number::new(-plan.squares[e])));
         }
         at.step += 1;
         Some(())
@@ -168,7 +176,8 @@ impl<'a> Proof<'a> {
 
     /// Claims of a step whose point does not stand. `None` and false: not proved.
     fn before(&self, step: usize, mark: Mark, at: &Standing) -> Option<bool> {
-        let square = self.plan.meet(step, &at.node, &at.points)?.square.range();
+        let square = self.plan.meet(step, &at.node, &at.points)?.square;
+        let square = square.range().interval();
         Some(match mark {
             Mark::NoPlace(_) => square.sup() < 0.0,
             // No height is beyond the range of the symbol, on a side that is not decided otherwise.
@@ -189,23 +198,26 @@ impl<'a> Proof<'a> {
         Some(match mark {
             Mark::WrongDistance(_, place) => {
                 let first = at.equations.len() - plan.closing[step].len();
-                !at.equations[first..].get(place)?.range().contains(0.0)
+                let range = at.equations[first..].get(place)?.range();
+                range.lo > 0.0 || range.hi < 0.0
             }
             Mark::WrongPair(_, other) if plan.stands(other, step) => {
                 let new = plan.cover.steps[step].0;
-                let d = minus(&at.points[new], &at.points[other]);
-                dot(&d, &d).range().disjoint(plan.pairs.square(new, other))
+                let [a, b] = [new, other].map(|p| &at.points[p]);
+                let range = squared_distance(plan.dimension, a, b).range();
+                range.interval().disjoint(plan.pairs.square(new, other))
             }
-            Mark::Excluded(_) => contracted(symbols, &at.equations).is_none(),
+            Mark::Excluded(_) => at.left().is_err(),
             Mark::Within(_, claimed) => {
-                let holds = |i: usize, left: Interval| {
+                let holds = |i: usize, left: Range| {
                     let ([lo, hi], (middle, reach)) = (node.ranges[i], node.middle(i));
+                    let left = left.interval();
                     let x = (exact(middle) + exact(reach) * left).intersection(hull(lo, hi));
                     let [least, most] = claimed[i].range;
                     x.is_empty() || least <= x.inf() && x.sup() <= most
                 };
-                let left = contracted(symbols, &at.equations);
-                left.is_none_or(|left| (0..symbols).all(|i| holds(i, left[i])))
+                let left = at.left();
+                left.map_or(true, |left| (0..symbols).all(|i| holds(i, left[i])))
             }
             _ => false,
         })
@@ -214,12 +226,15 @@ impl<'a> Proof<'a> {
     /// Whether all figures of this part lie where one of those listed (or its mirror image) is alone.
     fn is_figure(&self, points: &[Place]) -> bool {
         let d = self.plan.dimension;
+        let is_near = |f: &Model, at: f64, alone: f64| {
+            round_up((f.middle() - at).abs() + f.reach(), 4) < alone
+        };
         let near = |centre: &[[f64; 3]], alone: f64| {
             let mut pairs = points.iter().zip(centre);
-            pairs.all(|(p, at)| (0..d).all(|k| p[k].distance(at[k]) < alone))
+            pairs.all(|(p, at)| (0..d).all(|k| is_near(&p[k], at[k], alone)))
         };
         self.figures.iter().any(|figure| {
-            near(&figure.centre, figure.alone) || near(&figure.mirrored(d), figure.alone)
+            near(&figure.centre, figure.alone) || near(&figure.mirrored(d).centre, figure.alone)
         })
     }
 }

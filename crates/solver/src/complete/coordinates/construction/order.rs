@@ -7,8 +7,8 @@
 
 use super::super::newton::{KNOWN, Square};
 use super::super::system::{Form, Row};
-use crate::complete::model::Number;
 use crate::map::Map;
+use crate::model::Number;
 use crate::order::each_once;
 
 /// Unknowns that one step finds, at most.

@@ -14,10 +14,9 @@
 //! of it, or where something is not known well enough to go on. Where there would be too many ways, the part itself is the one leaf.
 
 use super::order::{Affine, Equation, Order, Step};
-use crate::complete::contract::contract;
 use crate::complete::coordinates::system::{Form, Row, volume};
-use crate::complete::model::{Model, Number, Range};
 use crate::interval::{Interval, hull, point};
+use crate::model::{Margin, Model, Number, Range, SYMBOLS, contract};
 use crate::places::Each as _;
 
 /// What is divided by has to be at least this part of its greatest size.
@@ -43,8 +42,6 @@ const MOST_LEAVES: usize = 8;
 const MOST_TAKEN: usize = 512;
 /// Leaves are put together where they make up this part of what holds both. (Less than 1, so that the last digits of logarithms are no matter.)
 const TOGETHER: f64 = 0.99;
-/// Variables, at most.
-const MOST_SYMBOLS: usize = 6;
 
 /// A part that holds some of the zeros of a part.
 #[derive(Debug, Clone)]
@@ -91,12 +88,10 @@ type Roots<const S: usize, const M: usize> = [Model<S, M>; 2];
 /// of these leaves. `None`: more variables are needed. `rows`: the block's equations.
 pub fn walk(symbols: usize, order: &Order, rows: &[&Row], x: &[Interval]) -> Option<Vec<Leaf>> {
     match symbols {
-        0 => Walk::<0, 1>::run(order, rows, x),
-        1 => Walk::<1, 3>::run(order, rows, x),
+        0 | 1 => Walk::<1, 3>::run(order, rows, x),
         2 => Walk::<2, 6>::run(order, rows, x),
         3 => Walk::<3, 10>::run(order, rows, x),
         4 => Walk::<4, 15>::run(order, rows, x),
-        5 => Walk::<5, 21>::run(order, rows, x),
         _ => Walk::<6, 28>::run(order, rows, x),
     }
 }
@@ -122,9 +117,6 @@ struct Walk<'a, const S: usize, const M: usize> {
     /// Whether there are more leaves than are kept, or more steps than are taken.
     is_overfull: bool,
 }
-
-/// The number 1.
-const ONE: Number = Number { mid: 1.0, rad: 0.0 };
 
 impl<'a, const S: usize, const M: usize> Walk<'a, S, M> {
     fn run(order: &'a Order, rows: &'a [&'a Row], x: &'a [Interval]) -> Option<Vec<Leaf>> {
@@ -240,7 +232,7 @@ impl<'a, const S: usize, const M: usize> Walk<'a, S, M> {
         let Some((quadric, z)) = told else {
             return self.found(step, &along.a, &used);
         };
-        along.b[z] = Model::constant(ONE);
+        along.b[z] = Model::constant(Number::ONE);
         let Some([middle, half]) = self.roots((now, z), quadric, &along)? else {
             // Its equation is one that closes.
             let y = self.symbol(now.unknowns[z])?.minus(&self.f[now.base[z]]);
@@ -266,7 +258,7 @@ impl<'a, const S: usize, const M: usize> Walk<'a, S, M> {
     /// What is known of a form. `None`: nothing but 0.
     fn known(&self, affine: &Affine) -> Option<Model<S, M>> {
         match affine.known {
-            None => Some(Model::constant(ONE)),
+            None => Some(Model::constant(Number::ONE)),
             Some([a, b]) if a == b => None,
             Some([a, b]) => Some(self.difference(a, b)),
         }
@@ -309,7 +301,7 @@ impl<'a, const S: usize, const M: usize> Walk<'a, S, M> {
         if rad < NUMBER * (1.0 + mid.abs()) {
             return Ok(Model::constant(Number { mid, rad }));
         }
-        if self.symbols.len() >= MOST_SYMBOLS {
+        if self.symbols.len() >= SYMBOLS {
             let wider = |other: usize| self.x[other].wid() >= self.x[unknown].wid();
             if !self.wanting.is_some_and(wider) {
                 self.wanting = Some(unknown);
@@ -349,9 +341,9 @@ impl<'a, const S: usize, const M: usize> Walk<'a, S, M> {
         (quadric, products): Quadric<S, M>,
     ) -> usize {
         let size = now.unknowns.len();
-        let middle = |i: usize| self.x[now.unknowns[i]].mid() - self.f[now.base[i]].c[0];
+        let middle = |i: usize| self.x[now.unknowns[i]].mid() - self.f[now.base[i]].middle();
         let y: Vec<f64> = (0..size).map(middle).collect();
-        let mut slopes: Vec<f64> = quadric.coefficients.iter().map(|c| c.c[0]).collect();
+        let mut slopes: Vec<f64> = quadric.coefficients.iter().map(|c| c.middle()).collect();
         for &(i, j, factor) in products {
             slopes[i] += factor * y[j];
             slopes[j] += factor * y[i];
@@ -359,7 +351,7 @@ impl<'a, const S: usize, const M: usize> Walk<'a, S, M> {
         let along = |i: usize| -> f64 {
             let beside = pivots
                 .iter()
-                .map(|&(line, pivot)| slopes[pivot] * lines[line].coefficients[i].c[0]);
+                .map(|&(line, pivot)| slopes[pivot] * lines[line].coefficients[i].middle());
             (slopes[i] - beside.sum::<f64>()).abs()
         };
         let best = free
@@ -392,7 +384,7 @@ impl<'a, const S: usize, const M: usize> Walk<'a, S, M> {
             third = third.plus(&coefficient.times(&a[i]));
         }
         second = second.scaled(0.5);
-        if first.c[0] < 0.0 {
+        if first.middle() < 0.0 {
             [first, second, third] = [first, second, third].each(|x| x.scaled(-1.0));
         }
         let range = first.range();
@@ -432,7 +424,7 @@ impl<'a, const S: usize, const M: usize> Walk<'a, S, M> {
             if !meets(range, given) {
                 return Err(Stop::Empty);
             }
-            is_blurred |= !(x.r <= BLURRED * (1.0 + x.c[0].abs()));
+            is_blurred |= !(x.rest() <= BLURRED * (1.0 + x.middle().abs()));
             let more = BEYOND * given.wid();
             if range.lo < given.inf() - more || range.hi > given.sup() + more {
                 self.equations.push(x.shifted(Number::new(-given)));
@@ -474,7 +466,7 @@ impl<'a, const S: usize, const M: usize> Walk<'a, S, M> {
                 (Some(left), Some(_)) if p.left == p.right => left.squared(),
                 (Some(left), Some(right)) => left.times(&right),
                 (Some(one), None) | (None, Some(one)) => one,
-                (None, None) => Model::constant(ONE),
+                (None, None) => Model::constant(Number::ONE),
             };
             sum.plus(&product.by(Number::new(p.factor)))
         })
@@ -482,8 +474,8 @@ impl<'a, const S: usize, const M: usize> Walk<'a, S, M> {
 
     /// What the equations leave of the variables, of −1 to 1 each. `None`: nothing.
     fn contracted(&mut self) -> Option<[Range; S]> {
-        let mut left = [Range { lo: -1.0, hi: 1.0 }; S];
-        let result = contract(&self.equations, &mut self.room, &mut left);
+        let mut left = [Range::SYMBOL; S];
+        let result = contract(&self.equations, &mut self.room, &mut left, Margin::Some);
         result.is_ok().then_some(left)
     }
 
@@ -613,7 +605,7 @@ fn eliminate<const S: usize, const M: usize>(
     let mut pivots: Vec<(usize, usize)> = Vec::new();
     while let Some((k, i, range)) = pivot(lines, size, &pivots) {
         let coefficient = lines[k].coefficients[i];
-        let over = match coefficient.c[0] < 0.0 {
+        let over = match coefficient.middle() < 0.0 {
             true => coefficient.scaled(-1.0).reciprocal(range).scaled(-1.0),
             false => coefficient.reciprocal(range),
         };
@@ -654,15 +646,15 @@ fn pivot<const S: usize, const M: usize>(
             continue;
         }
         let open = (0..size).filter(|i| pivots.iter().all(|pivot| pivot.1 != *i));
-        let sizes = open.clone().map(|i| line.coefficients[i].c[0].abs());
+        let sizes = open.clone().map(|i| line.coefficients[i].middle().abs());
         let largest = sizes.fold(0.0, f64::max);
         for i in open {
             let coefficient = &line.coefficients[i];
-            let weight = coefficient.c[0].abs() / largest;
+            let weight = coefficient.middle().abs() / largest;
             if best.is_some_and(|best| best.0 >= weight) {
                 continue;
             }
-            let range = match coefficient.c[0] < 0.0 {
+            let range = match coefficient.middle() < 0.0 {
                 true => coefficient.scaled(-1.0).range(),
                 false => coefficient.range(),
             };

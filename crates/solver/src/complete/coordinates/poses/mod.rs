@@ -2,8 +2,8 @@
 //!
 //! Legs are distances from points of the body to points that are known (a platform of a parallel robot: Stewart and Gough). A
 //! search over all coordinates knows three of the body's points by nine numbers; how the body is turned is told by three, and with
-//! that known, where it is follows from linear equations ([`legs`]). So the parts of this search are boxes of
-//! rotations ([`part`]), with Taylor models of the second order over them, rounded outwards.
+//! that known, where it is follows from linear equations ([`Legs`]). So the parts of this search are boxes of
+//! rotations ([`Turn`]), with Taylor models of the second order over them, rounded outwards.
 //!
 //! # Why nothing is missed
 //!
@@ -13,25 +13,21 @@
 //! equations that is proved is alone: its points are enclosed by the models, and its other unknowns by the equations
 //! ([`contract`]). Nothing is claimed of zeros of the block's equations that are no figures.
 
-mod legs;
-mod part;
-
 use super::contract::contract;
 use super::newton::Zero;
 use super::search::{Block, Found, Run, SMALL, add};
 use super::tally::Tally;
 use crate::blocks::Block as Cut;
-use crate::certificate::cover::coordinates::Body;
+use crate::certificate::cover::coordinates::legs::{Leg, Legs, Look, SYMBOLS};
+use crate::certificate::cover::coordinates::{Body, Turn};
 use crate::complete::Why;
-use crate::complete::model::Number;
 use crate::equations::Form;
-use crate::interval::{Interval, ZERO, enclose, point};
+use crate::interval::{Interval, ZERO, enclose, hull, point};
+use crate::model::{Margin, Number, weighted};
 use crate::order::InOrder;
 use crate::places::{Each as _, array};
 use crate::problem::{Problem, Shape};
 use crate::system::{Homotopy, Term};
-use legs::{Leg, Legs, Look};
-use part::Part;
 use rayon::prelude::*;
 
 /// The legs that a body stands on: as many as it has freedoms.
@@ -44,6 +40,37 @@ const LOOKED: u64 = 2000;
 const NEAR: f64 = 0.03;
 /// And surely where it varies by no more than this.
 const NEARER: f64 = 1e-3;
+
+/// Where linear equations do not tell the place in a box as small as this, a coordinate is searched.
+const FINE: f64 = 1.0 / 40.0;
+
+/// A box of rotations, and about its share of all of them.
+struct Part {
+    turn: Turn,
+    share: f64,
+}
+
+impl Part {
+    /// How far a component of the quaternion is from its middle at most.
+    fn widest(&self) -> f64 {
+        let widths = self.turn.ranges()[..3].iter().map(|x| 0.5 * x.wid());
+        widths.fold(0.0, f64::max)
+    }
+
+    /// Two boxes that share their border and together are this one, halved in what moves most. `None`: it is too small.
+    fn halves(&self, moves: &[f64; SYMBOLS]) -> Option<[Part; 2]> {
+        let widths: Vec<f64> = self.turn.ranges().iter().map(|x| x.wid()).collect();
+        let widest = widths.iter().copied().fold(0.0, f64::max);
+        // What is narrow already is not what keeps the box from being decided.
+        let wide = (0..widths.len()).filter(|&i| widths[i] > 1e-3 * widest);
+        let best = wide.fold(None, |best: Option<usize>, i| match best {
+            Some(b) if !(moves[i] > moves[b]) => best,
+            _ => Some(i),
+        });
+        let share = 0.5 * self.share;
+        Some(self.turn.halved(best?)?.map(|turn| Part { turn, share }))
+    }
+}
 
 /// A block of a rigid body on legs.
 #[derive(Debug)]
@@ -164,7 +191,8 @@ impl Poses {
                         legs: found.iter().map(|leg| leg.0).collect(),
                     },
                     foot,
-                    legs: Legs::new(found[1..].iter().map(leg), first_square)?,
+                    legs: Legs::new(found[1..].iter().map(leg), first_square)
+                        .filter(|legs| legs.reach < 1e30)?,
                     points: free.collect(),
                 })
             })
@@ -180,7 +208,8 @@ impl Poses {
             is_flexible: false,
         };
         let mut first = new();
-        let mut parts: Vec<Part> = Part::all();
+        let all = Turn::all().into_iter();
+        let mut parts: Vec<Part> = all.map(|turn| Part { turn, share: 0.25 }).collect();
         // Breadth first until there are enough pieces.
         while !parts.is_empty() && parts.len() < PIECES && first.tally.found.boxes < LOOKED {
             let mut next = Vec::new();
@@ -213,31 +242,20 @@ impl Poses {
     }
 
     /// The ranges of all unknowns of the block for figures whose rotation is in a part: `None` if there are none.
-    fn ranges<const S: usize, const M: usize>(
-        &self,
-        block: &Block,
-        x: &[Interval],
-        look: &Look<S, M>,
-    ) -> Option<Vec<Interval>> {
+    fn ranges(&self, block: &Block, x: &[Interval], look: &Look) -> Option<Vec<Interval>> {
         let mut x = x.to_vec();
-        let size = look.square.range();
-        let over = look.square.reciprocal(size);
-        let turned = look
-            .turned
-            .each_ref()
-            .each(|row| row.each_ref().each(|entry| entry.times(&over)));
+        let turned = look.rotation();
         for (from, unknowns) in &self.points {
             for axis in 0..3 {
-                let mut at = look.place[axis].shifted(Number::new(self.foot[axis]));
-                for k in 0..3 {
-                    at = at.plus(&turned[axis][k].by(from[k]));
-                }
+                let at = look.place[axis].shifted(Number::new(self.foot[axis]));
+                let terms = [0, 1, 2].each(|k| (from[k], &turned[axis][k]));
+                let at = weighted(&at, terms);
                 let range = at.range();
                 if !(range.lo.is_finite() && range.hi.is_finite()) {
                     continue;
                 }
                 let u = unknowns[axis];
-                x[u] = x[u].intersection(crate::interval::hull(range.lo, range.hi));
+                x[u] = x[u].intersection(hull(range.lo, range.hi));
                 if x[u].is_empty() {
                     return None;
                 }
@@ -260,36 +278,26 @@ struct Piece<'s, 'a> {
 
 impl Piece<'_, '_> {
     /// Looks at a part: it is given up, decided, left undecided, or its halves come to the others.
-    fn visit(&mut self, part: Part, others: &mut Vec<Part>) {
-        match part.height {
-            None => self.look::<3, 10, 3>(part, others),
-            Some(_) => self.look::<4, 15, 2>(part, others),
-        }
-    }
-
-    /// The same, with S symbols, where linear equations tell K coordinates of the body's place.
-    fn look<const S: usize, const M: usize, const K: usize>(
-        &mut self,
-        mut part: Part,
-        others: &mut Vec<Part>,
-    ) {
+    fn visit(&mut self, mut part: Part, others: &mut Vec<Part>) {
         loop {
             if !self.tally.begin(part.share) {
                 return;
             }
-            let Some(look) = self.poses.legs.look::<S, M, K>(&part) else {
+            let Some(look) = self.poses.legs.look(&part.turn) else {
                 return self.tally.done(part.share);
             };
             let before = part.widest();
-            if look.equations.is_empty() {
-                if part.height.is_some() && before < SMALL {
+            if !look.is_told() {
+                if part.turn.height.is_some() && before < SMALL {
                     return self.tally.leave(Why::Small, part.share);
                 }
-                return self.halve(part, &look.moves, look.untold, others);
+                return self.halve(part, &look, others);
             }
-            let Some(volume) = part.contract(&look.equations) else {
+            let Some(left) = look.left(Margin::Some) else {
                 return self.tally.done(part.share);
             };
+            let volume: f64 = left.iter().map(|u| 0.5 * (u.hi - u.lo)).product();
+            part.turn = part.turn.within(&left).unwrap_or(part.turn);
             let is_near = before < NEAR && (volume < 0.1 || before < NEARER);
             let mut why = Why::Small;
             if is_near {
@@ -311,7 +319,7 @@ impl Piece<'_, '_> {
             }
             // Worth another look where a good part of it is gone.
             if volume > 0.3 {
-                return self.halve(part, &look.moves, None, others);
+                return self.halve(part, &look, others);
             }
         }
     }
@@ -324,19 +332,15 @@ impl Piece<'_, '_> {
 
     /// The halves of a part come to the others; or, where linear equations do not tell the body's place however small the part is,
     /// the part with the coordinate that they do not tell.
-    fn halve<const S: usize>(
-        &mut self,
-        part: Part,
-        moves: &[f64; S],
-        untold: Option<usize>,
-        others: &mut Vec<Part>,
-    ) {
-        if let Some(axis) = untold
-            && part.is_small()
+    fn halve(&mut self, part: Part, look: &Look, others: &mut Vec<Part>) {
+        let reach = self.poses.legs.reach;
+        if let Some(axis) = look.untold
+            && part.widest() <= FINE
+            && let Some(turn) = part.turn.with_height(axis, hull(-reach, reach))
         {
-            return others.push(part.with_height(axis, self.poses.legs.reach));
+            return others.push(Part { turn, ..part });
         }
-        match part.halves(moves) {
+        match part.halves(&look.moves) {
             Some(halves) => others.extend(halves),
             None => self.tally.leave(Why::Small, part.share),
         }

@@ -1,4 +1,4 @@
-//! What legs say of the poses of a body, over a box of rotations.
+//! What legs say of the poses of a body, over a box of rotations. Searches and checks look at the same.
 //!
 //! The body's point of leg i is at p + R βᵢ, with βᵢ from the first leg's point in the body's own coordinates, and p from where
 //! the first leg stands to its point; the leg stands at αᵢ from there. With R = Q/N, N = |q|² and Q quadratic in q (Rodrigues), the first
@@ -14,11 +14,12 @@
 //! Where one coordinate of p is not told by the linear equations (a flat platform parallel to its flat base), it is a symbol of its own,
 //! the two others are eliminated, and there is one more equation.
 
-use super::part::Part;
-use crate::complete::model::{Model, Number, Range, weighted};
+use super::turns::Turn;
+
 use crate::interval::rounding::{UNDERFLOW, largest, round_up};
 use crate::interval::{Interval, point};
 use crate::linalg::weakest;
+use crate::model::{self, Margin, Number, Range, contract, weighted};
 use crate::places::{Each as _, array};
 
 /// A leg beside the first one.
@@ -42,23 +43,51 @@ pub struct Legs {
     pub reach: f64,
 }
 
+/// The most symbols: three of a rotation, and a coordinate of the place.
+pub const SYMBOLS: usize = 4;
+/// A function of them.
+pub type Model = model::Model<SYMBOLS, 15>;
+
 /// Legs beside the first one.
 const OTHERS: usize = 5;
 
-/// What is known of poses over a part.
-pub struct Look<const S: usize, const M: usize> {
-    /// Equations that hold for all poses with a rotation in the part: as many as symbols, or none where linear equations do not tell the place.
-    pub equations: Vec<Model<S, M>>,
+/// What legs say of the poses with a rotation in a box.
+pub struct Look {
+    symbols: usize,
+    /// Equations that hold for all of them: as many as symbols, or none where linear equations do not tell the place.
+    equations: Vec<Model>,
     /// p, if there are equations.
-    pub place: [Model<S, M>; 3],
+    pub place: [Model; 3],
     /// Q.
-    pub turned: [[Model<S, M>; 3]; 3],
+    turned: [[Model; 3]; 3],
     /// N.
-    pub square: Model<S, M>,
+    square: Model,
     /// How much each symbol moves what matters.
-    pub moves: [f64; S],
+    pub moves: [f64; SYMBOLS],
     /// Where there are no equations: the axis along which the linear equations tell the place least.
     pub untold: Option<usize>,
+}
+
+impl Look {
+    /// Whether the linear equations tell where the body is.
+    pub fn is_told(&self) -> bool {
+        !self.equations.is_empty()
+    }
+
+    /// What the equations leave of the symbols' ranges, of −1 to 1 each; `None`: nothing.
+    pub fn left(&self, margin: Margin) -> Option<Vec<Range>> {
+        let mut left = [Range::SYMBOL; SYMBOLS];
+        let result = contract(&self.equations, &mut Vec::new(), &mut left, margin);
+        result.ok()?;
+        Some(left[..self.symbols].to_vec())
+    }
+
+    /// The matrix of the rotation.
+    pub fn rotation(&self) -> [[Model; 3]; 3] {
+        let over = self.square.reciprocal(self.square.range());
+        let turned = self.turned.each_ref();
+        turned.each(|row| row.each_ref().each(|entry| entry.times(&over)))
+    }
 }
 
 impl Leg {
@@ -80,27 +109,29 @@ impl Leg {
 }
 
 impl Legs {
-    /// From the legs beside the first one, five. `None`: numbers are too large.
+    /// From the legs beside the first one. `None`: they are not five.
     pub fn new(legs: impl Iterator<Item = Leg>, first_square: Interval) -> Option<Self> {
         let legs: Vec<Leg> = legs.collect();
-        let reach = first_square.sqrt().sup();
-        (reach < 1e30).then_some(())?;
         Some(Legs {
             legs: legs.try_into().ok()?,
             square: Number::new(first_square),
-            reach,
+            reach: first_square.sqrt().sup(),
         })
     }
 
-    /// What the legs say over a part. K numbers of the place are eliminated: all three, or two and the part's coordinate is the
-    /// last symbol. `None`: there is no pose with a rotation in the part.
-    pub fn look<const S: usize, const M: usize, const K: usize>(
-        &self,
-        part: &Part,
-    ) -> Option<Look<S, M>> {
-        let (turned, square) = turned::<S, M>(part);
-        let mut a: [[Model<S, M>; 3]; OTHERS] = [[Model::ZERO; 3]; OTHERS];
-        let mut b: [Model<S, M>; OTHERS] = [Model::ZERO; OTHERS];
+    /// What the legs say over a box of rotations. `None`: there is no pose with one of them.
+    pub fn look(&self, turn: &Turn) -> Option<Look> {
+        match turn.height {
+            None => self.look_at::<3>(turn),
+            Some(_) => self.look_at::<2>(turn),
+        }
+    }
+
+    /// The same, where K numbers of the place are eliminated: all three, or two and the box's coordinate is the last symbol.
+    fn look_at<const K: usize>(&self, turn: &Turn) -> Option<Look> {
+        let (turned, square) = turned(turn);
+        let mut a: [[Model; 3]; OTHERS] = [[Model::ZERO; 3]; OTHERS];
+        let mut b: [Model; OTHERS] = [Model::ZERO; OTHERS];
         for (i, leg) in self.legs.iter().enumerate() {
             let [x, y, z] = leg.holds;
             let held = turned
@@ -128,35 +159,37 @@ impl Legs {
             }
         }
         let mut look = Look {
+            symbols: turn.ranges().len(),
             equations: Vec::new(),
             place: [Model::ZERO; 3],
             turned,
             square,
-            moves: [0.0; S],
+            moves: [0.0; SYMBOLS],
             untold: None,
         };
         // The axes that are eliminated, and b without what the other one says.
-        let axes: [usize; K] = match part.height {
+        let axes: [usize; K] = match turn.height {
             Some(axis) => array(|k| (axis + 1 + k) % 3),
             None => array(|k| k),
         };
-        let height = (K < 3).then(|| part.symbol::<S, M>(3));
+        let height = turn.height.map(|_| turn.symbol(3));
         if let Some(height) = &height {
-            let axis = part.height.unwrap_or_default();
+            let axis = turn.height.unwrap_or_default();
             for (b, row) in b.iter_mut().zip(&a) {
                 *b = b.minus(&row[axis].times(height));
             }
         }
         // The columns that are eliminated.
-        let told: [[Model<S, M>; K]; OTHERS] = a.each_ref().each(|row| axes.each(|axis| row[axis]));
-        let middle: [[f64; K]; OTHERS] =
-            told.each_ref().each(|row| row.each_ref().each(|x| x.c[0]));
+        let told: [[Model; K]; OTHERS] = a.each_ref().each(|row| axes.each(|axis| row[axis]));
+        let middle: [[f64; K]; OTHERS] = told
+            .each_ref()
+            .each(|row| row.each_ref().each(|x| x.middle()));
         let Some(bases) = Bases::<K>::of(&middle) else {
-            self.wide::<S, M, K>(&mut look, &a, None);
+            self.wide::<K>(&mut look, &a, None);
             return Some(look);
         };
         // E, and Z A.
-        let mut off: [[Model<S, M>; K]; K] = [[Model::ZERO; K]; K];
+        let mut off: [[Model; K]; K] = [[Model::ZERO; K]; K];
         for (j, row) in off.iter_mut().enumerate() {
             for (k, entry) in row.iter_mut().enumerate() {
                 let start = Number::exact(if j == k { -1.0 } else { 0.0 });
@@ -169,10 +202,10 @@ impl Legs {
             largest(max, round_up(row.iter().sum(), K + 2))
         });
         if !(norm < LIMIT) {
-            self.wide::<S, M, K>(&mut look, &a, Some(&off));
+            self.wide::<K>(&mut look, &a, Some(&off));
             return Some(look);
         }
-        let height = part.height.zip(height.as_ref());
+        let height = turn.height.zip(height.as_ref());
         self.narrow(
             &mut look,
             (&told, &b),
@@ -184,17 +217,17 @@ impl Legs {
     }
 
     /// The equations that are left without the place.
-    fn narrow<const S: usize, const M: usize, const K: usize>(
+    fn narrow<const K: usize>(
         &self,
-        look: &mut Look<S, M>,
-        (a, b): (&[[Model<S, M>; K]; OTHERS], &[Model<S, M>; OTHERS]),
+        look: &mut Look,
+        (a, b): (&[[Model; K]; OTHERS], &[Model; OTHERS]),
         bases: &Bases<K>,
-        (off, sizes, norm): (&[[Model<S, M>; K]; K], &[[f64; K]; K], f64),
-        (axes, height): ([usize; K], Option<(usize, &Model<S, M>)>),
+        (off, sizes, norm): (&[[Model; K]; K], &[[f64; K]; K], f64),
+        (axes, height): ([usize; K], Option<(usize, &Model)>),
     ) {
         // p̃: y − E (y − E y) with y = Y b, of which the polynomial alone is taken.
-        let y: [Model<S, M>; K] =
-            array(|j| polynomial(combination(Model::ZERO, &bases.inverse[j], b.each_ref())));
+        let y: [Model; K] =
+            array(|j| combination(Model::ZERO, &bases.inverse[j], b.each_ref()).without_rest());
         let mut near = y;
         for _ in 0..2 {
             let before = near;
@@ -203,10 +236,10 @@ impl Legs {
                 for k in 0..K {
                     near[j] = near[j].minus(&off[j][k].times(&before[k]));
                 }
-                near[j] = polynomial(near[j]);
+                near[j] = near[j].without_rest();
             }
         }
-        let rest: [Model<S, M>; OTHERS] =
+        let rest: [Model; OTHERS] =
             array(|i| (0..K).fold(b[i], |rest, k| rest.minus(&a[i][k].times(&near[k]))));
         // δ.
         let size = |row: &[f64; OTHERS]| combination(Model::ZERO, row, rest.each_ref()).size();
@@ -222,12 +255,12 @@ impl Legs {
             for k in 0..K {
                 let column = a.each_ref().each(|row| &row[k]);
                 let size = combination(Model::ZERO, row, column).size();
-                left.r = round_up(left.r + size * delta[k], 4);
+                left = left.widened(round_up(size * delta[k], 2));
             }
             look.equations.push(left);
         }
         for (near, delta) in near.iter_mut().zip(delta) {
-            near.r = delta;
+            *near = near.without_rest().widened(delta);
         }
         for (axis, near) in axes.into_iter().zip(near) {
             look.place[axis] = near;
@@ -244,32 +277,32 @@ impl Legs {
             quadratic(equation, |i, size| look.moves[i] += size / linear);
         }
         for entry in off.iter().flatten() {
-            for i in 0..S {
-                look.moves[i] += entry.c[1 + i].abs();
+            for i in 0..SYMBOLS {
+                look.moves[i] += entry.slope(i).abs();
             }
         }
     }
 
     /// Where linear equations do not tell the place: what moves them, and which direction they tell least.
-    fn wide<const S: usize, const M: usize, const K: usize>(
+    fn wide<const K: usize>(
         &self,
-        look: &mut Look<S, M>,
-        a: &[[Model<S, M>; 3]; OTHERS],
-        off: Option<&[[Model<S, M>; K]; K]>,
+        look: &mut Look,
+        a: &[[Model; 3]; OTHERS],
+        off: Option<&[[Model; K]; K]>,
     ) {
         match off {
             Some(off) => {
                 for entry in off.iter().flatten() {
-                    for i in 0..S {
-                        look.moves[i] += entry.c[1 + i].abs();
+                    for i in 0..SYMBOLS {
+                        look.moves[i] += entry.slope(i).abs();
                     }
                     quadratic(entry, |i, size| look.moves[i] += size);
                 }
             }
             None => {
                 for entry in a.iter().flatten() {
-                    for i in 0..S {
-                        look.moves[i] += entry.c[1 + i].abs();
+                    for i in 0..SYMBOLS {
+                        look.moves[i] += entry.slope(i).abs();
                     }
                 }
             }
@@ -278,7 +311,7 @@ impl Legs {
         for row in a {
             for j in 0..3 {
                 for k in 0..3 {
-                    gram[(j, k)] += row[j].c[0] * row[k].c[0];
+                    gram[(j, k)] += row[j].middle() * row[k].middle();
                 }
             }
         }
@@ -289,17 +322,8 @@ impl Legs {
 /// Where ‖E‖ is more, the place is not eliminated.
 const LIMIT: f64 = 0.7;
 
-/// The model's polynomial, exactly.
-fn polynomial<const S: usize, const M: usize>(model: Model<S, M>) -> Model<S, M> {
-    Model { r: 0.0, ..model }
-}
-
 /// start + Σ row_i f_i.
-fn combination<const S: usize, const M: usize>(
-    start: Model<S, M>,
-    row: &[f64; OTHERS],
-    f: [&Model<S, M>; OTHERS],
-) -> Model<S, M> {
+fn combination(start: Model, row: &[f64; OTHERS], f: [&Model; OTHERS]) -> Model {
     let mut i = 0;
     let terms = f.each(|f| {
         i += 1;
@@ -309,30 +333,28 @@ fn combination<const S: usize, const M: usize>(
 }
 
 /// Tells for each symbol how large its terms of the second order are, those of two symbols half to each.
-fn quadratic<const S: usize, const M: usize>(f: &Model<S, M>, mut tell: impl FnMut(usize, f64)) {
-    let mut q = 1 + S;
-    for i in 0..S {
-        for j in i..S {
-            let size = 0.5 * f.c[q].abs();
+fn quadratic(f: &Model, mut tell: impl FnMut(usize, f64)) {
+    for i in 0..SYMBOLS {
+        for j in i..SYMBOLS {
+            let size = 0.5 * f.bend(i, j).abs();
             tell(i, size);
             tell(j, size);
-            q += 1;
         }
     }
 }
 
-/// Q and N over a part.
-fn turned<const S: usize, const M: usize>(part: &Part) -> ([[Model<S, M>; 3]; 3], Model<S, M>) {
+/// Q and N over a box of rotations (Rodrigues).
+fn turned(turn: &Turn) -> ([[Model; 3]; 3], Model) {
     let mut next = 0;
-    let q: [Model<S, M>; 4] = array(|i| {
-        if i == part.chart {
+    let q: [Model; 4] = array(|i| {
+        if i == turn.chart {
             return Model::constant(Number::exact(1.0));
         }
         next += 1;
-        part.symbol(next - 1)
+        turn.symbol(next - 1)
     });
     let of = |i: usize, j: usize| q[i].times(&q[j]);
-    let squares: [Model<S, M>; 4] = array(|i| q[i].squared());
+    let squares: [Model; 4] = array(|i| q[i].squared());
     let diagonal = |k: usize| {
         let sign = |i: usize| Number::exact(if i == k { 1.0 } else { -1.0 });
         let others = [1, 2, 3].each(|i| (sign(i), &squares[i]));

@@ -1,25 +1,43 @@
 //! Cutting away from a box of symbols what the equations exclude.
 
-use super::model::{Model, Range};
+use super::{Model, Range};
 use crate::interval::rounding::{UNDERFLOW, UNIT_ROUNDOFF, gamma};
 
 /// No point of the box meets the equations.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Empty;
 
-/// Margin, in parts of [−1, 1], by which something is cut off or called empty.
-const MARGIN: f64 = 1e-9;
+/// By how much a bound has to be clear, as a part of what it is about: whoever searches leaves a little more than
+/// whoever checks, who may come to other roundings.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Margin {
+    /// A billionth.
+    Some,
+    /// Nothing.
+    None,
+}
+
+impl Margin {
+    /// How much that is of a size.
+    pub fn of(self, size: f64) -> f64 {
+        match self {
+            Margin::Some => 1e-9 * size,
+            Margin::None => 0.0,
+        }
+    }
+}
 
 /// Narrows the ranges `u` of the symbols, parts of [−1, 1], to where all equations e(u) = 0 can hold: each
 /// equation is solved for each symbol, and then each of the combinations that Gauss–Jordan
-/// elimination makes of their linear parts.
+/// elimination makes of their linear parts. `rows`: room for these.
 pub fn contract<const S: usize, const M: usize>(
     equations: &[Model<S, M>],
     rows: &mut Vec<Model<S, M>>,
     u: &mut [Range; S],
+    margin: Margin,
 ) -> Result<(), Empty> {
     for equation in equations {
-        solve(equation, u)?;
+        solve(equation, u, margin)?;
     }
     if S == 0 || equations.len() < 2 {
         return Ok(());
@@ -42,8 +60,8 @@ pub fn contract<const S: usize, const M: usize>(
             }
         }
         let (weight, r, i) = best;
+        // What is left may be without a zero all the same.
         if !(weight > 1e-9) {
-            rows.truncate(step);
             break;
         }
         used[i] = true;
@@ -57,13 +75,17 @@ pub fn contract<const S: usize, const M: usize>(
         }
     }
     for row in rows.iter() {
-        solve(row, u)?;
+        solve(row, u, margin)?;
     }
     Ok(())
 }
 
 /// Narrows each symbol's range by one equation.
-fn solve<const S: usize, const M: usize>(e: &Model<S, M>, u: &mut [Range; S]) -> Result<(), Empty> {
+fn solve<const S: usize, const M: usize>(
+    e: &Model<S, M>,
+    u: &mut [Range; S],
+    margin: Margin,
+) -> Result<(), Empty> {
     if !(e.r < 1e100) {
         return Ok(());
     }
@@ -87,8 +109,8 @@ fn solve<const S: usize, const M: usize>(e: &Model<S, M>, u: &mut [Range; S]) ->
     // Every term and sum above is at most this in size.
     size = gamma(400) * size + UNDERFLOW;
     (lo, hi) = (lo - size, hi + size);
-    let whole = Range { lo, hi };
-    if whole.misses_zero(e.c[0].abs()) {
+    let least = margin.of(e.c[0].abs());
+    if lo > least || hi < -least {
         return Err(Empty);
     }
     for i in 0..S {
@@ -100,7 +122,7 @@ fn solve<const S: usize, const M: usize>(e: &Model<S, M>, u: &mut [Range; S]) ->
             continue;
         }
         let (a, b) = (-rest_hi / g, -rest_lo / g);
-        let out = |x: f64| 4.0 * UNIT_ROUNDOFF * x.abs() + MARGIN;
+        let out = |x: f64| 4.0 * UNIT_ROUNDOFF * x.abs() + margin.of(1.0) + UNDERFLOW;
         let (low, high) = if g > 0.0 { (a, b) } else { (b, a) };
         let (low, high) = (low - out(low), high + out(high));
         if low > u[i].hi || high < u[i].lo {
