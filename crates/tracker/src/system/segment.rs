@@ -186,11 +186,18 @@ fn misses<T: Ring + Copy>(
     let along = sub(q, p);
     let area = cross(p, along);
     let is_off = |p: Flat<T>| of(dot(p, p) - square);
+    // All of it is as far out towards one end: that is told of the shortest lines, too.
+    let is_behind = |p: Flat<T>, q: Flat<T>| {
+        let far = dot(p, q);
+        is_off(p) > 0 && of(far) > 0 && of(far * far - square * dot(p, p)) > 0
+    };
     // All of the line through it; the end that is nearest; all of it inside.
     of(area * area - square * dot(along, along)) > 0
         || of(dot(p, along)) > 0 && is_off(p) > 0
         || of(dot(q, along)) < 0 && is_off(q) > 0
         || is_off(p) < 0 && is_off(q) < 0
+        || is_behind(p, q)
+        || is_behind(q, p)
 }
 
 /// How far, times the length of an arc's chord, a point is from the chord on the side where the arc is not.
@@ -364,6 +371,23 @@ mod tests {
         };
         a.windows(2)
             .any(|p| b.windows(2).any(|q| parts(p, q) && parts(q, p)))
+    }
+
+    /// An end of the line is on the line through an arc's ends, within a rounding, away from the arc.
+    #[test]
+    fn a_line_that_ends_in_line_with_a_chord_is_apart() {
+        let arc = [[0.0; 3], [2.0, 0.0, 0.0], [0.0, 2.0, 0.0]];
+        for other in [[5.0, 4.0], [-4.0, 3.0], [-1.5, -3.0], [-1.2, -9.0]] {
+            let line = [[-1.0, 3.0, 0.0], [other[0], other[1], 0.0]];
+            let all = [&arc[..], &line].concat();
+            let extent = Extent::Apart {
+                points: (0..5).collect(),
+                first: 3,
+                radii: Vec::new(),
+            };
+            let around = |x: f64| crate::interval::hull(x - 1e-12, x + 1e-12);
+            assert_eq!(extent.sign(|k| all[k].map(around), sign_of), 1, "{other:?}");
+        }
     }
 
     /// Arcs of one circle, of which the one ends before the other begins, or after.
