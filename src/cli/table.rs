@@ -23,10 +23,14 @@ struct Table {
 impl Table {
     fn read(file: &Path) -> Result<Self, String> {
         let text = fs::read_to_string(file).map_err(in_file(file))?;
-        // What comes behind # is a remark, on a line of its own or not.
-        let lines = text.lines().map(|line| match line.starts_with('#') {
-            true => "",
-            false => line.split_once(" #").map_or(line, |(line, _)| line),
+        // What comes behind # is a remark, but in the line of names, which may have it.
+        let mut are_names = true;
+        let lines = text.lines().map(|line| match line.split_once('#') {
+            Some((row, _)) if row.is_empty() || !are_names => row,
+            _ => {
+                are_names &= line.trim().is_empty();
+                line
+            }
         });
         let text = lines.collect::<Vec<_>>().join("\n");
         let mut reader = csv::ReaderBuilder::new()

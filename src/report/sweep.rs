@@ -232,10 +232,12 @@ pub fn frames_to_csv(
     out
 }
 
-/// The number with the fewest digits that is within these bounds.
+/// A number within these bounds, with no more digits than it takes.
 fn within(x: Interval) -> f64 {
+    // About as many as the bounds agree in.
+    let least = (x.mag() / x.wid()).log10() as usize;
     let rounded = |digits: usize| format!("{:.digits$e}", x.mid()).parse::<f64>().ok();
-    let mut all = (0..17).filter_map(rounded);
+    let mut all = (least.saturating_sub(1)..17).filter_map(rounded);
     all.find(|&y| x.contains(y)).unwrap_or_else(|| x.mid()) + 0.0
 }
 

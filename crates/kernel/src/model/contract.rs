@@ -89,15 +89,13 @@ fn solve<const S: usize, const M: usize>(
     if !(e.r < 1e100) {
         return Ok(());
     }
-    let mut squares = [Range { lo: 0.0, hi: 0.0 }; S];
     let (mut lo, mut hi, mut size) = (e.c[0] - e.r, e.c[0] + e.r, e.size());
     let mut q = 1 + S;
     for i in 0..S {
         let (g, h) = (e.c[1 + i], e.c[q]);
-        let linear = times(g, u[i]);
-        squares[i] = square(h, u[i]);
-        lo += linear.lo + squares[i].lo;
-        hi += linear.hi + squares[i].hi;
+        let (linear, square) = (times(g, u[i]), square(h, u[i]));
+        lo += linear.lo + square.lo;
+        hi += linear.hi + square.hi;
         q += 1;
         for j in i + 1..S {
             let cross = e.c[q].abs() * largest(u[i]) * largest(u[j]);

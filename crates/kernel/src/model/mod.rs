@@ -4,9 +4,9 @@
 //! coefficients, and a remainder r such that |f(u) − polynomial(u)| ≤ r for every such u. What an
 //! operation rounds away, and the terms of degree 3 and 4 that it drops, go into r (Makino, Berz,
 //! *Taylor models and other validated functional inclusion methods*, Int. J. Pure Appl. Math. 4,
-//! 2003). What overflows leaves a remainder that is infinite or no number, and with it ranges that decide nothing; roots and
-//! quotients are taken of functions between 1e-60 and 1e60 alone. S is
-//! known at compile time, and so is the number M = (S + 1)(S + 2)/2 of coefficients.
+//! 2003). What overflows leaves a remainder that is infinite or no number, and with it ranges that decide nothing;
+//! roots and quotients are taken of functions between 1e-60 and 1e60 alone. S is known at compile time, and so is the
+//! number M = (S + 1)(S + 2)/2 of coefficients.
 
 // A bound that is not a number proves nothing: tests say what they need, and `!(a < b)` is not `a >= b`.
 #![allow(clippy::neg_cmp_op_on_partial_ord)]

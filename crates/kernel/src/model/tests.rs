@@ -39,6 +39,18 @@ fn value(f: &Three, u: &[f64; 3], part: f64) -> Rational {
     polynomial(f, u) + exact(f.r) * exact(part)
 }
 
+/// Whether 1/f and √f, where they are known at all, hold what they are of a value x of f at u.
+fn quotient_and_root_enclose(f: &Three, range: Range, u: &[f64; 3], x: &Rational) -> bool {
+    let (over, root) = (f.reciprocal(range), f.square_root(range));
+    let is_over = !over.r.is_finite() || encloses(&over, u, &(Rational::one() / x));
+    is_over
+        && (!root.r.is_finite() || {
+            let (p, r) = (polynomial(&root, u), exact(root.r));
+            let (low, high) = (&p - &r, &p + &r);
+            !high.is_negative() && &high * &high >= *x && (low.is_negative() || &low * &low <= *x)
+        })
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(3000))]
     #[test]
@@ -79,17 +91,7 @@ proptest! {
         let x = value(&f, &u, part[0]);
         let range = f.range();
         if range.lo > 0.0 {
-            let over = f.reciprocal(range);
-            if over.r.is_finite() {
-                prop_assert!(encloses(&over, &u, &(Rational::one() / &x)));
-            }
-            let root = f.square_root(range);
-            if root.r.is_finite() {
-                let (p, r) = (polynomial(&root, &u), exact(root.r));
-                let (low, high) = (&p - &r, &p + &r);
-                prop_assert!(!high.is_negative() && &high * &high >= x);
-                prop_assert!(low.is_negative() || &low * &low <= x);
-            }
+            prop_assert!(quotient_and_root_enclose(&f, range, &u, &x));
         }
     }
 
@@ -150,16 +152,7 @@ proptest! {
         let f = f.scaled(2f64.powi(size / 2)).scaled(2f64.powi(size - size / 2));
         let (x, range) = (value(&f, &u, part), f.range());
         prop_assume!(range.lo > 0.0);
-        let (over, root) = (f.reciprocal(range), f.square_root(range));
-        if over.r.is_finite() {
-            prop_assert!(encloses(&over, &u, &(Rational::one() / &x)));
-        }
-        if root.r.is_finite() {
-            let (p, r) = (polynomial(&root, &u), exact(root.r));
-            let (low, high) = (&p - &r, &p + &r);
-            prop_assert!(!high.is_negative() && &high * &high >= x);
-            prop_assert!(low.is_negative() || &low * &low <= x);
-        }
+        prop_assert!(quotient_and_root_enclose(&f, range, &u, &x));
     }
 }
 

@@ -70,20 +70,17 @@ impl System {
         objects: &[Vec<Entry>],
         is_of_it: impl Fn(&Row) -> bool,
     ) -> usize {
-        let is_object = |k: usize| objects.iter().flatten().any(|e| *e == Entry::Unknown(k));
-        let own = each_once(self.auxiliary.iter().enumerate().filter_map(|(k, &u)| {
-            let is_coordinate = self.coordinates.contains(&u);
-            (!is_coordinate && !is_object(k)).then_some(u)
-        }));
-        let is_its_own = |u: &usize| {
-            let mut with = self
-                .rows
-                .iter()
-                .filter(|row| row.unknowns.contains(u))
-                .peekable();
-            with.peek().is_some() && with.all(&is_of_it)
+        let of_it = self.rows.iter().filter(|row| is_of_it(row));
+        let own = each_once(of_it.flat_map(|row| row.unknowns.iter().copied()));
+        let is_object = |u: usize| {
+            let mut entries = objects.iter().flatten();
+            entries.any(|entry| matches!(entry, Entry::Unknown(k) if self.auxiliary[*k] == u))
         };
-        own.iter().filter(|u| is_its_own(u)).count()
+        let is_its_own = |u: &&usize| {
+            let mut with = self.rows.iter().filter(|row| row.unknowns.contains(u));
+            !self.coordinates.contains(u) && !is_object(**u) && with.all(&is_of_it)
+        };
+        own.iter().filter(is_its_own).count()
     }
 
     /// Ranks of the unknowns in a [choice](super::Choice) of what is held: coordinates of points come after others.

@@ -1,9 +1,10 @@
 //! A part of the search space: a box of symbols, and which of two places some points take.
 
 use super::plan::Plan;
+use crate::model::{Model, SYMBOLS};
 
 /// Most symbols at a time: driving parameters and folds.
-pub const MAX_SYMBOLS: usize = crate::model::SYMBOLS;
+pub const MAX_SYMBOLS: usize = SYMBOLS;
 /// Most steps with two places; two bits each.
 pub const MAX_SIGNED: usize = 64;
 
@@ -121,6 +122,12 @@ impl Node {
         let middle = 0.5 * (self.lo[i] + self.hi[i]);
         let reach = (self.hi[i] - middle).max(middle - self.lo[i]);
         (middle, if reach > 0.0 { reach.next_up() } else { 0.0 })
+    }
+
+    /// A symbol.
+    pub fn symbol<const S: usize, const M: usize>(&self, i: usize) -> Model<S, M> {
+        let (middle, reach) = self.middle(i);
+        Model::symbol(i, middle, reach)
     }
 
     /// Both halves, parted in the middle of a symbol's range.

@@ -3,20 +3,8 @@
 use super::node::{Node, Sign};
 use super::search::Search;
 use crate::certificate::cover::Kind;
-use crate::certificate::cover::construct::{self, Ahead, Hinge, Meeting, Place};
-use crate::model::{Model, Number};
-use crate::places::Each as _;
-
-/// What is known of a step before the search begins.
-#[derive(Debug, Clone, Copy)]
-pub enum Known {
-    /// An arm's length.
-    Length(Number),
-    /// A hinge's constants.
-    Hinge(Hinge),
-    /// What is known of a meeting, and which of the steps with two places it is.
-    Meeting(Ahead, usize),
-}
+use crate::certificate::cover::construct::{self, Ahead, Known, Meeting, Place};
+use crate::model::Model;
 
 /// What placing a point came to.
 pub enum Placed<const S: usize, const M: usize> {
@@ -56,31 +44,24 @@ pub fn place<const S: usize, const M: usize>(
 ) -> Placed<S, M> {
     let now = &search.plan.steps[step];
     let angle = |i: usize| construct::angle(i, node.middle(i), (node.halves >> i) & 1 == 1);
-    match (&now.kind, &search.known[step]) {
-        (&Kind::Arm(centre, parameter), &Known::Length(length)) => {
-            Placed::Here(construct::arm(&points[centre], length, &angle(parameter)))
+    let known = &search.known[step];
+    let (Kind::Meet(centres), Known::Meeting(ahead)) = (&now.kind, known) else {
+        let here = known.driven(&now.kind, points, angle);
+        return Placed::Here(here.expect("what is known of a step is of the step's own kind"));
+    };
+    let index = search.signed[step];
+    match ahead {
+        Ahead::Empty => Placed::None,
+        Ahead::Rigid(numbers) => {
+            let (places, height) = numbers.places(centres, points);
+            decided(node.sign(index), places, height, search.targets.dimension)
         }
-        (&Kind::Hinge(frame, parameter), Known::Hinge(hinge)) => {
-            Placed::Here(hinge.place(frame.each(|p| &points[p]), &angle(parameter)))
+        Ahead::Moving => {
+            let square = |a, b| search.targets.edge(a, b).map(|e| search.squares[e]);
+            let meeting = Meeting::new(square, now.point, centres, points, |i| node.symbol(i));
+            let meeting = meeting.expect("the problem's distances are known");
+            moving(search, node, index, &meeting)
         }
-        (Kind::Meet(centres), &Known::Meeting(ahead, index)) => match ahead {
-            Ahead::Empty => Placed::None,
-            Ahead::Rigid(numbers) => {
-                let (places, height) = numbers.places(centres, points);
-                decided(node.sign(index), places, height, search.targets.dimension)
-            }
-            Ahead::Moving => {
-                let square = |a, b| search.targets.edge(a, b).map(|e| search.squares[e]);
-                let parameter = |i: usize| {
-                    let (middle, reach) = node.middle(i);
-                    Model::symbol(i, middle, reach)
-                };
-                let meeting = Meeting::new(square, now.point, centres, points, parameter);
-                let meeting = meeting.expect("the problem's distances are known");
-                moving(search, node, index, &meeting)
-            }
-        },
-        _ => unreachable!("what is known of a step is of the step's own kind"),
     }
 }
 
@@ -122,9 +103,7 @@ fn moving<const S: usize, const M: usize>(
     if sign == Some(Sign::Fold) || opens {
         let places = meeting.places(&meeting.width.reciprocal(width));
         if sign == Some(Sign::Fold) {
-            let symbol = node.fold_symbol(search.plan.parameters(), index);
-            let (centre, reach) = node.middle(symbol);
-            let w = Model::symbol(symbol, centre, reach);
+            let w = node.symbol(node.fold_symbol(search.plan.parameters(), index));
             let equation = meeting.square.minus(&w.squared());
             return Placed::Folded(construct::beside(d, &places, 1.0, &w), equation);
         }

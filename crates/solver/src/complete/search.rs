@@ -2,13 +2,12 @@
 
 use super::Options;
 use super::node::{MAX_SIGNED, MAX_SYMBOLS, Node};
-use super::place::Known;
 use super::plan::Plan;
 use super::targets::Targets;
 use super::visit::{Found, Rooms, Why, visit};
 use crate::certificate::cover::Pairs;
-use crate::certificate::cover::construct::{Ahead, Hinge, base};
-use crate::certificate::cover::{Figure, Frame, Kind};
+use crate::certificate::cover::construct::{Known, base};
+use crate::certificate::cover::{Figure, Frame};
 use crate::linalg::damped;
 use crate::model::{Margin, Number};
 use crate::places::Each as _;
@@ -101,26 +100,17 @@ impl Search {
         let mut count = 0;
         for step in &plan.steps {
             signed.push(usize::MAX);
-            known.push(match &step.kind {
-                Kind::Arm(centre, _) => {
-                    let edge = targets
-                        .edge(step.point, *centre)
-                        .expect("an arm is a distance");
-                    Known::Length(Number::new(targets.lengths[edge]))
-                }
-                Kind::Hinge(frame, _) => {
-                    match Hinge::new(&square, step.point, *frame, Margin::Some) {
-                        Some(Ok(hinge)) => Known::Hinge(hinge),
-                        Some(Err(())) => return Err(Unfit::Empty(step.point)),
-                        None => return Err(Unfit::Hinge),
-                    }
-                }
-                Kind::Meet(centres) => {
-                    *signed.last_mut().expect("just pushed") = count;
-                    count += 1;
-                    Known::Meeting(Ahead::new(&square, step.point, centres), count - 1)
-                }
-            });
+            if step.is_signed() {
+                *signed.last_mut().expect("just pushed") = count;
+                count += 1;
+            }
+            known.push(
+                match Known::new(&square, step.point, &step.kind, Margin::Some) {
+                    Some(Ok(known)) => known,
+                    Some(Err(())) => return Err(Unfit::Empty(step.point)),
+                    None => return Err(Unfit::Hinge),
+                },
+            );
         }
         let mut standing = plan.base.clone();
         let signs = signs(&targets.signs, &plan);

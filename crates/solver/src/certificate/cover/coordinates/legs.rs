@@ -15,7 +15,6 @@
 //! the two others are eliminated, and there is one more equation.
 
 use super::turns::Turn;
-
 use crate::interval::rounding::{UNDERFLOW, largest, round_up};
 use crate::interval::{Interval, point};
 use crate::linalg::weakest;
@@ -46,7 +45,7 @@ pub struct Legs {
 /// The most symbols: three of a rotation, and a coordinate of the place.
 pub const SYMBOLS: usize = 4;
 /// A function of them.
-pub type Model = model::Model<SYMBOLS, 15>;
+pub(super) type Model = model::Model<SYMBOLS, 15>;
 
 /// Legs beside the first one.
 const OTHERS: usize = 5;
@@ -57,7 +56,7 @@ pub struct Look {
     /// Equations that hold for all of them: as many as symbols, or none where linear equations do not tell the place.
     equations: Vec<Model>,
     /// p, if there are equations.
-    pub place: [Model; 3],
+    place: [Model; 3],
     /// Q.
     turned: [[Model; 3]; 3],
     /// N.
@@ -82,11 +81,17 @@ impl Look {
         Some(left[..self.symbols].to_vec())
     }
 
-    /// The matrix of the rotation.
-    pub fn rotation(&self) -> [[Model; 3]; 3] {
+    /// Where points of the body may be along an axis, if the linear equations tell that: `foot` is where the first leg stands, and a
+    /// point is told by where it is from that leg's point in the body's own coordinates.
+    pub fn ranges(&self, foot: [Interval; 3]) -> impl Fn(&[Number; 3], usize) -> Interval {
         let over = self.square.reciprocal(self.square.range());
         let turned = self.turned.each_ref();
-        turned.each(|row| row.each_ref().each(|entry| entry.times(&over)))
+        let turned = turned.each(|row| row.each_ref().each(|entry| entry.times(&over)));
+        let place = [0, 1, 2].each(|axis| self.place[axis].shifted(Number::new(foot[axis])));
+        move |from, axis| {
+            let terms = [0, 1, 2].each(|k| (from[k], &turned[axis][k]));
+            weighted(&place[axis], terms).range().interval()
+        }
     }
 }
 

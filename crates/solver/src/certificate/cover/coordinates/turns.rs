@@ -8,7 +8,7 @@ use super::legs::{Leg, Legs, Look, Model};
 use super::space::Part;
 use crate::certificate::checker::equations::{Equations, Product};
 use crate::interval::{Interval, UNIT, ZERO, enclose, halves, hull, point};
-use crate::model::{Number, Range, weighted};
+use crate::model::{Number, Range};
 use crate::places::Each as _;
 use crate::problem::{Problem, Shape};
 
@@ -132,8 +132,7 @@ impl Body {
         if !look.is_told() {
             return None;
         }
-        let foot = Self::at(part, self.legs[0].1).each(Number::new);
-        let turned = look.rotation();
+        let range = look.ranges(Self::at(part, self.legs[0].1));
         let mut out = part.clone();
         for (p, from) in &self.points {
             let from = from.each(Number::new);
@@ -141,9 +140,7 @@ impl Body {
                 let Some(u) = eq.homotopy.coordinate(*p, axis) else {
                     continue;
                 };
-                let terms = [0, 1, 2].each(|k| (from[k], &turned[axis][k]));
-                let at = weighted(&look.place[axis].shifted(foot[axis]), terms);
-                if out.narrow(u, at.range().interval()).is_err() {
+                if out.narrow(u, range(&from, axis)).is_err() {
                     return Some(Err(super::Empty));
                 }
             }

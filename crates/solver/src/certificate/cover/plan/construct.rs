@@ -1,6 +1,6 @@
 //! Where the steps of a construction plan put their points, as functions of the driving parameters and of folds' heights.
 
-use super::format::Radius;
+use super::format::{Kind, Radius};
 use crate::interval::{Interval, checked, point};
 use crate::model::{Factor, Margin, Model, Number, combined, rotation, weighted};
 use crate::places::Each as _;
@@ -134,15 +134,6 @@ pub fn angle<const S: usize, const M: usize>(
     }
 }
 
-/// A point at a length from a centre, in a direction of the plane.
-pub fn arm<const S: usize, const M: usize>(
-    centre: &Place<S, M>,
-    length: Number,
-    direction: &[Model<S, M>; 2],
-) -> Place<S, M> {
-    each(2, |k| weighted(&centre[k], [(length, &direction[k])]))
-}
-
 /// The constants of a hinge: the new point lies at
 /// `c₁ + along (c₂ − c₁) + cos θ · side · v + sin θ · up · (c₂ − c₁) × v`, where
 /// `v = (q − c₁) − foot (c₂ − c₁)` is perpendicular to the hinge.
@@ -191,7 +182,7 @@ impl Hinge {
     }
 
     /// Where the new point is.
-    pub fn place<const S: usize, const M: usize>(
+    fn place<const S: usize, const M: usize>(
         &self,
         [c1, c2, q]: [&Place<S, M>; 3],
         [cos, sin]: &[Model<S, M>; 2],
@@ -214,20 +205,68 @@ impl Hinge {
     }
 }
 
+/// What is known of a step before any part is looked at.
+#[derive(Debug, Clone, Copy)]
+pub enum Known {
+    /// An arm's length.
+    Length(Number),
+    /// A hinge's constants.
+    Hinge(Hinge),
+    /// What is known of a meeting.
+    Meeting(Ahead),
+}
+
+impl Known {
+    /// Of a step that places the point `new`. `None` and `Err`: of a hinge as [`Hinge::new`] says, or an arm's length is not given.
+    pub fn new(
+        square: Squares,
+        new: usize,
+        kind: &Kind,
+        margin: Margin,
+    ) -> Option<Result<Known, ()>> {
+        Some(Ok(match kind {
+            Kind::Arm(centre, _) => Known::Length(Number::new(square(new, *centre)?.sqrt())),
+            Kind::Hinge(frame, _) => {
+                return Some(Hinge::new(square, new, *frame, margin)?.map(Known::Hinge));
+            }
+            Kind::Meet(centres) => Known::Meeting(Ahead::new(square, new, centres)),
+        }))
+    }
+
+    /// The place of an arm's or a hinge's point, by the cosine and sine of driving angles. `None`: a meeting has two places.
+    pub fn driven<const S: usize, const M: usize>(
+        &self,
+        kind: &Kind,
+        points: &[Place<S, M>],
+        angle: impl Fn(usize) -> [Model<S, M>; 2],
+    ) -> Option<Place<S, M>> {
+        match (kind, self) {
+            (&Kind::Arm(centre, parameter), &Known::Length(length)) => {
+                let (centre, direction) = (&points[centre], angle(parameter));
+                Some(each(2, |k| weighted(&centre[k], [(length, &direction[k])])))
+            }
+            (&Kind::Hinge(frame, parameter), Known::Hinge(hinge)) => {
+                Some(hinge.place(frame.each(|p| &points[p]), &angle(parameter)))
+            }
+            _ => None,
+        }
+    }
+}
+
 /// The constants of a meeting of spheres (or circles) whose centres have given distances from each other:
 /// the new point lies at `c₁ + first (c₂ − c₁) + second (c₃ − c₁) ± over n`, n = (c₂ − c₁) × (c₃ − c₁) or
 /// (c₂ − c₁) turned by a right angle.
 #[derive(Debug, Clone, Copy)]
 pub struct Rigid {
     /// The multiple of c₂ − c₁ in the new point.
-    pub first: Number,
+    first: Number,
     /// The multiple of c₃ − c₁ in the new point.
-    pub second: Number,
+    second: Number,
     /// The multiple of n in the new point, up to its sign.
-    pub over: Number,
+    over: Number,
 }
 
-/// What is known of a meeting before the search begins.
+/// What is known of a meeting before any part is looked at.
 #[derive(Debug, Clone, Copy)]
 pub enum Ahead {
     /// Nothing: the centres move, or the new point may lie between them.

@@ -1,11 +1,10 @@
 //! The problem and the plan, found to be in order.
 
-use super::construct::{self, Ahead, Hinge};
+use super::construct::{self, Ahead, Known};
 use super::format::{Cover, Kind, Radius};
 use super::pairs::Pairs;
 use crate::interval::{Interval, point};
 use crate::model::{self, Margin, Number, SYMBOLS};
-use crate::places::Each as _;
 use crate::problem::Problem;
 
 /// The problem in the unit of the cover, and the plan, found to be in order.
@@ -26,6 +25,8 @@ pub struct Plan<'a> {
     pub pairs: Pairs,
     /// The distances that close at each step.
     pub closing: Vec<Vec<usize>>,
+    /// What is known of each step: nothing, where a hinge may be degenerate or its point has no place.
+    pub known: Vec<Option<Known>>,
 }
 
 /// A function of as many symbols as there may be.
@@ -55,6 +56,12 @@ impl Node {
         let reach = (hi - middle).max(middle - lo);
         (middle, if reach > 0.0 { reach.next_up() } else { 0.0 })
     }
+
+    /// A symbol.
+    pub fn symbol(&self, i: usize) -> Model {
+        let (middle, reach) = self.middle(i);
+        Model::symbol(i, middle, reach)
+    }
 }
 
 impl<'a> Plan<'a> {
@@ -83,6 +90,7 @@ impl<'a> Plan<'a> {
             cover,
             base: Vec::new(),
             closing: Vec::new(),
+            known: Vec::new(),
         };
         plan.fix_base()
             .ok_or("the base is not one, or may be degenerate")?;
@@ -184,6 +192,8 @@ impl<'a> Plan<'a> {
                 .filter(|&e| closes(&self.edges[e]))
                 .collect();
             self.closing.push(closing);
+            let known = Known::new(&|a, b| self.square(a, b), *new, kind, Margin::None);
+            self.known.push(known.and_then(Result::ok));
             stands[*new] = true;
         }
         (driven == cover.drives.len()).then_some(())
@@ -228,39 +238,26 @@ impl<'a> Plan<'a> {
 
     /// The place of an arm's or hinge's point.
     pub fn driven(&self, step: usize, node: &Node, points: &[Place]) -> Option<Place> {
-        let (new, kind) = &self.cover.steps[step];
         let angle = |i: usize| construct::angle(i, node.middle(i), node.halves[i]);
-        match kind {
-            Kind::Arm(centre, parameter) => {
-                let length = Number::new(self.square(*new, *centre)?.sqrt());
-                Some(construct::arm(&points[*centre], length, &angle(*parameter)))
-            }
-            Kind::Hinge(frame, parameter) => {
-                let square = |a: usize, b: usize| self.square(a, b);
-                let hinge = Hinge::new(&square, *new, *frame, Margin::None)?.ok()?;
-                Some(hinge.place(frame.each(|p| &points[p]), &angle(*parameter)))
-            }
-            Kind::Meet(_) => None,
-        }
+        let kind = &self.cover.steps[step].1;
+        self.known[step].as_ref()?.driven(kind, points, angle)
     }
 
-    /// The two places of a step's point and its height over their middle, whose square is `square`.
+    /// The middle and the normal of the two places of a step's point, and its height over the middle.
     pub fn places(
         &self,
         step: usize,
+        node: &Node,
         points: &[Place],
-        meeting: &Meeting,
     ) -> Option<([Place; 2], Model)> {
-        let (new, Kind::Meet(centres)) = self.cover.steps.get(step)? else {
-            return None;
-        };
-        Some(match Ahead::new(&|a, b| self.square(a, b), *new, centres) {
-            Ahead::Rigid(numbers) => numbers.places(centres, points),
-            _ => {
-                let height = meeting.square.square_root(meeting.square.range());
-                (meeting.places(&meeting.over()), height)
-            }
-        })
+        if let Some(Known::Meeting(Ahead::Rigid(numbers))) = self.known.get(step)?
+            && let Kind::Meet(centres) = &self.cover.steps[step].1
+        {
+            return Some(numbers.places(centres, points));
+        }
+        let meeting = self.meet(step, node, points)?;
+        let height = meeting.square.square_root(meeting.square.range());
+        Some((meeting.places(&meeting.over()), height))
     }
 
     /// Where the point of a step with two places is.
@@ -269,10 +266,6 @@ impl<'a> Plan<'a> {
             return None;
         };
         let square = |a: usize, b: usize| self.square(a, b).map(Number::new);
-        let parameter = |i: usize| {
-            let (middle, reach) = node.middle(i);
-            Model::symbol(i, middle, reach)
-        };
-        Meeting::new(square, *new, centres, points, parameter)
+        Meeting::new(square, *new, centres, points, |i| node.symbol(i))
     }
 }

@@ -137,16 +137,14 @@ impl<'a> Proof<'a> {
         } else {
             let index = plan.sign(step);
             let sign = *node.signs.get(index)?;
-            let meeting = plan.meet(step, node, points)?;
             let (places, height) = if sign == 0 {
                 let folds = node.signs[..index].iter().filter(|&&s| s == 0).count();
-                let symbol = plan.cover.drives.len() + folds;
-                let (centre, reach) = node.middle(symbol);
-                let w = Model::symbol(symbol, centre, reach);
+                let w = node.symbol(plan.cover.drives.len() + folds);
+                let meeting = plan.meet(step, node, points)?;
                 at.equations.push(meeting.square.minus(&w.squared()));
                 (meeting.places(&meeting.over()), w)
             } else {
-                plan.places(step, points, &meeting)?
+                plan.places(step, node, points)?
             };
             let side = if sign < 0 { -1.0 } else { 1.0 };
             beside(d, &places, side, &height)

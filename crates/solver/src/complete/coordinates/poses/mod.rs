@@ -23,7 +23,7 @@ use crate::certificate::cover::coordinates::{Body, Turn};
 use crate::complete::Why;
 use crate::equations::Form;
 use crate::interval::{Interval, ZERO, enclose, hull, point};
-use crate::model::{Margin, Number, weighted};
+use crate::model::{Margin, Number};
 use crate::order::InOrder;
 use crate::places::{Each as _, array};
 use crate::problem::{Problem, Shape};
@@ -244,18 +244,10 @@ impl Poses {
     /// The ranges of all unknowns of the block for figures whose rotation is in a part: `None` if there are none.
     fn ranges(&self, block: &Block, x: &[Interval], look: &Look) -> Option<Vec<Interval>> {
         let mut x = x.to_vec();
-        let turned = look.rotation();
+        let range = look.ranges(self.foot);
         for (from, unknowns) in &self.points {
-            for axis in 0..3 {
-                let at = look.place[axis].shifted(Number::new(self.foot[axis]));
-                let terms = [0, 1, 2].each(|k| (from[k], &turned[axis][k]));
-                let at = weighted(&at, terms);
-                let range = at.range();
-                if !(range.lo.is_finite() && range.hi.is_finite()) {
-                    continue;
-                }
-                let u = unknowns[axis];
-                x[u] = x[u].intersection(hull(range.lo, range.hi));
+            for (axis, &u) in unknowns.iter().enumerate() {
+                x[u] = x[u].intersection(range(from, axis));
                 if x[u].is_empty() {
                     return None;
                 }
