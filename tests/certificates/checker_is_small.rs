@@ -206,7 +206,8 @@ fn the_checks_of_covers_are_short_and_their_own() {
         "places",
         "elimination",
     ];
-    assert!(lines_of(&format!("{cover}/plan"), &own) <= 1565);
+    // A quarter of it is the constructions, which searches use as well.
+    assert!(lines_of(&format!("{cover}/plan"), &own) <= 1585);
     let kernel = [
         "problem",
         "constraint",
