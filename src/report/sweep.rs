@@ -4,8 +4,8 @@ use super::certain_digits;
 use super::columns::Grid;
 use super::edit::{behind, edit_in_words, limit_in_words, short, write_moved};
 use super::measured::{Measures, Placed};
-use crate::blocks::Account;
-use crate::edit::{Edited, End, Ending, Moved, Range, Sweep};
+use crate::blocks::{Account, rounded_up};
+use crate::edit::{Edited, End, Ending, Extreme, Moved, Range, Sweep};
 use crate::interval::{Bound, Interval};
 use crate::problem::{Problem, list};
 use crate::remarks::Reach;
@@ -41,8 +41,8 @@ pub fn ranges_to_table(problem: &Problem, ranges: &[Range], moved: Moved) -> Str
         grid.push([
             problem.dimension_name(range.index),
             short(range.value),
-            value_of(&range.low, "≤", Bound::Upper),
-            value_of(&range.high, "≥", Bound::Lower),
+            value_of((&range.low, &range.extremes[0]), "≤", Bound::Upper),
+            value_of((&range.high, &range.extremes[1]), "≥", Bound::Lower),
         ]);
     }
     out += &grid.render();
@@ -52,12 +52,37 @@ pub fn ranges_to_table(problem: &Problem, ranges: &[Range], moved: Moved) -> Str
         words if account.meets_all() => format!(" At all these figures {words}."),
         words => format!(" At all these figures, and everywhere on the way to each, {words}."),
     });
-    let loose = match account.is_none_or(|account| account.held.is_empty()) {
-        true => "",
-        false => {
+    let mut extremes = ranges
+        .iter()
+        .flat_map(|range| range.extremes.iter().flatten());
+    let free = match extremes.next() {
+        None => "",
+        Some(_) => {
+            "A value with * is the end with nothing held: a figure has it, and no figure near that one goes further, however anything \
+             moves, proved. "
+        }
+    };
+    let is_held = account.is_some_and(|account| !account.held.is_empty());
+    let ends = ranges.iter().flat_map(|range| {
+        let ends = [&range.low, &range.high].into_iter();
+        ends.zip(&range.extremes)
+    });
+    let mut ends = ends.filter(|(_, extreme)| extreme.is_none());
+    let is_held_at_ends = is_held && ends.clone().next().is_some();
+    let loose = match is_held_at_ends {
+        false => "",
+        true => {
             "The figure can move with all its dimensions as they are, if only as a whole: each can go at least so far, and with \
              other coordinates held perhaps further. "
         }
+    };
+    let every = match (
+        free.is_empty(),
+        ends.any(|(end, _)| matches!(end, End::Limit(..))),
+    ) {
+        (true, _) => format!("Every value is a limit{scope}, proved, and"),
+        (false, true) => format!("Every other value is a limit{scope}, proved. Each value"),
+        (false, false) => "Each value".to_owned(),
     };
     let others = ranges.iter().filter(|_| !is_one);
     let others = others.map(|range| (range, &range.account.held_though_computed));
@@ -69,7 +94,7 @@ pub fn ranges_to_table(problem: &Problem, ranges: &[Range], moved: Moved) -> Str
         }
     };
     out += &format!(
-        "\n{loose}{computed}Every value is a limit{scope}, proved, and differs from the exact one by at most 1 in its last digit shown; but \
+        "\n{free}{loose}{computed}{every} differs from the exact one by at most 1 in its last digit shown; but \
          \"≤\" and \"≥\" say that no limit was met up to there, proved, and \"?\" that nothing could be proved beyond.{left_out}\n"
     );
     for (range, held) in others {
@@ -81,18 +106,27 @@ pub fn ranges_to_table(problem: &Problem, ranges: &[Range], moved: Moved) -> Str
             (&range.low, "shrinks to", Bound::Upper),
             (&range.high, "grows to", Bound::Lower),
         ];
-        for (end, verb, back) in ends {
+        for ((end, verb, back), extreme) in ends.into_iter().zip(&range.extremes) {
             let name = problem.dimension_name(range.index);
-            match end {
-                End::Limit(value, limit) => {
+            match (end, extreme) {
+                (End::Limit(value, _), Some(extreme)) => {
+                    out += &format!(
+                        "{name} {verb} {}*: the way there was followed, with coordinates held, to {}, and no point is further than {} from \
+                         where it is then.\n",
+                        certain_digits(extreme.value),
+                        certain_digits(*value),
+                        rounded_up(extreme.apart)
+                    )
+                }
+                (End::Limit(value, limit), None) => {
                     out += &format!(
                         "{name} {verb} {}: {}\n",
                         certain_digits(*value),
                         limit_in_words(problem, limit)
                     )
                 }
-                End::Beyond(_) => {}
-                End::Unknown(value, reason) => {
+                (End::Beyond(_), _) => {}
+                (End::Unknown(value, reason), _) => {
                     let value = not_beyond(*value, back);
                     out += &format!("{name} {verb} {value} at least: {reason}\n");
                 }
@@ -133,9 +167,12 @@ fn reach_in_words(problem: &Problem, index: usize, reach: &Reach) -> String {
     format!("However the rest moves, {name} is {why}, proved.\n")
 }
 
-fn value_of(end: &End, beyond: &str, back: Bound) -> String {
+fn value_of((end, extreme): (&End, &Option<Extreme>), beyond: &str, back: Bound) -> String {
     match end {
-        End::Limit(value, _) => certain_digits(*value),
+        End::Limit(value, _) => match extreme {
+            Some(extreme) => certain_digits(extreme.value) + "*",
+            None => certain_digits(*value),
+        },
         End::Beyond(value) => format!("{beyond} {}", short(*value)),
         End::Unknown(value, _) => format!("? {}", not_beyond(*value, back)),
     }

@@ -38,6 +38,75 @@ distances = [["b", "c", 5], ["a", "c", 6], ["a", "b", {length}]]
     )
 }
 
+/// Figures that can move, a dimension, and the least and greatest values that it has in any of them, by hand.
+const LOOSE: [(&str, &str, [Option<f64>; 2]); 5] = [
+    // A chain: the others laid end to end, or the longest less the others; nothing is at a place but A.
+    (
+        r#"dimension = 2
+points = { A = [0, 0], B = [2, 1], C = [4, 0.5], D = [5, 2] }
+constraints = { fixed = ["A"], distances = [["A","B",2.2],["B","C",2.1],["C","D",1.9],["A","D",5.3]] }"#,
+        "A-B",
+        [Some(1.3), Some(9.3)],
+    ),
+    // The same in space.
+    (
+        r#"dimension = 3
+points = { A = [0, 0, 0], B = [2, 1, 0.3], C = [4, 0.5, 0.5], D = [5, 2, -0.2] }
+constraints = { fixed = ["A"], distances = [["A","B",2.2],["B","C",2.1],["C","D",1.9],["A","D",5.3]] }"#,
+        "B-C",
+        [Some(1.2), Some(9.4)],
+    ),
+    // Two cranks around places that are fixed: the fixed points bear it.
+    (
+        r#"dimension = 2
+points = { O = [0, 0], R = [5, 0], P = [0.6, 0.8], Q = [4, 1.7] }
+constraints = { fixed = ["O", "R"], distances = [["O","P",1],["R","Q",2],["P","Q",3.5]] }"#,
+        "P-Q",
+        [Some(2.0), Some(8.0)],
+    ),
+    // An arm's end beside a wall: it reaches as far as the arm is long, and a bar that dangles from it is of no account.
+    (
+        r#"dimension = 2
+points = { O = [0, 0], P = [0.6, 0.8], Q = [2, 2], R = [2.5, 1] }
+constraints = { fixed = ["O"], distances = [["O","P",1],["P","Q",2],["Q","R",1.2]], dx = [["O","Q",2]] }"#,
+        "dx: O, Q",
+        [Some(-3.0), Some(3.0)],
+    ),
+    // A point on a line through the origin, 2 from another one that is 1 off the line.
+    (
+        r#"dimension = 2
+points = { O = [0, 0], U = [4, 0], P = [2, 0], Q = [1, 1] }
+lines = { l = ["O", "U"] }
+constraints = { fixed = ["O", "U"], on = [["P", "l"]], distances = [["O","Q",1.5],["P","Q",1.4],["O","P",2]] }"#,
+        "O-P",
+        [None, Some(2.9)],
+    ),
+];
+
+/// The limits of a dimension of a figure that can move, with nothing held, are what they are by hand, and figures of random numbers
+/// keep within them near there.
+#[test]
+fn limits_with_nothing_held_are_those_of_all_figures() {
+    for (text, name, right) in LOOSE {
+        let problem =
+            Problem::parse_loosely(&format!("name = \"loose\"\n{text}"), "loose.toml").unwrap();
+        let mut session = Session::open(&problem).unwrap();
+        let index = Setting::find(&problem, name).unwrap();
+        let range = session.range(index, &mut Control::default());
+        assert!(!range.account.held.is_empty(), "{name}");
+        for (found, right) in range.extremes.iter().zip(right) {
+            let Some(right) = right else { continue };
+            let found = found.as_ref().unwrap_or_else(|| panic!("{name}: {right}"));
+            assert!(
+                found.value.contains(right) || (found.value.mid() - right).abs() < 1e-12,
+                "{name}: {:?}, {right}",
+                found.value
+            );
+            assert!(found.value.wid() < 1e-9, "{name}: {:?}", found.value);
+        }
+    }
+}
+
 /// A rectangle of which more is said than needed, in no place of its own: it moves as a whole and in no other way.
 #[test]
 fn a_whole_that_floats_does_not_move_in_itself() {

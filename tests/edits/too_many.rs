@@ -3,6 +3,7 @@
 
 use assert_cmd::Command;
 use krawl::blocks::{Census, Finding, Seen, surplus};
+use krawl::edit::{Ending, Session, Setting};
 use krawl::problem::Problem;
 
 fn census(text: &str) -> Census {
@@ -178,4 +179,70 @@ fn degrees_of_freedom_are_told_once() {
     let crank = told(&format!("{points}fixed = [\"A\"]\n{triangle}"));
     assert_eq!(crank, "degrees of freedom  1");
     assert!(told(TANGENT).contains("not told: "));
+}
+
+/// Of an angle whose legs have given lengths, and a length that is left out, the angle stays what it is: its equation has no number of the length.
+#[test]
+fn what_a_length_that_is_left_out_gives_is_not_taken_for_given() {
+    let triangle = |distances: &str, others: &str| {
+        format!(
+            "dimension = 2\n[points]\nA = [0,0]\nB = [3,0]\nC = [1,1.7]\n[constraints]\ndistances = [{distances}]\n{others}\n"
+        )
+    };
+    let angles = |of: [&str; 3]| {
+        let [a, b, c] = of;
+        format!(
+            "angles = [[\"A\",\"B\",\"C\",{b}],[\"B\",\"C\",\"A\",{c}],[\"C\",\"A\",\"B\",{a}]]"
+        )
+    };
+    // Three angles that are 180 degrees together follow from each other, whatever lengths are given.
+    let equilateral = triangle("[\"A\",\"B\",2]", &angles(["60", "60", "60"]));
+    let found = census(&equilateral);
+    let names: Vec<&str> = found.surplus.iter().map(|one| &*one.name).collect();
+    assert_eq!(names, ["`angles: C, A, B, 60`"]);
+    assert!(
+        !found.surplus[0]
+            .others
+            .iter()
+            .any(|other| other.contains("A-B"))
+    );
+    let (_, text) = check(&equilateral);
+    assert!(!text.contains("remove the distance A-B"), "{text}");
+    let problem = Problem::parse_loosely(&equilateral, "drawing.toml").unwrap();
+    let mut session = Session::open(&problem).unwrap();
+    let edited = session.edit(&[Setting::parse(&problem, "A-B=3").unwrap()]);
+    assert_eq!(edited.ending, Ending::Reached);
+    // Of 60, 40 and 80 degrees, AB = 3 and AC = 2 it is a length that contradicts: the sine rule has 1.958.
+    let contradictory = triangle(
+        "[\"A\",\"B\",3],[\"A\",\"C\",2]",
+        &angles(["60", "40", "80"]),
+    );
+    let problem = Problem::parse_loosely(&contradictory, "drawing.toml").unwrap();
+    let why = Session::open(&problem).unwrap_err().to_string();
+    assert!(
+        why.contains("`A-C` contradicts") && !why.contains("`angles"),
+        "{why}"
+    );
+    // A difference of two lengths that are given as well.
+    let found = census(&triangle(
+        "[\"A\",\"B\",3],[\"A\",\"C\",3.2],[\"B\",\"C\",3.4]",
+        "differences = [[\"A\",\"C\",\"A\",\"B\",0.4]]",
+    ));
+    assert!(
+        found.surplus.iter().all(|one| !one.others.is_empty()),
+        "{:?}",
+        found.surplus
+    );
+}
+
+/// A rhombus with the middle of its diagonals: one of its sides follows, at every figure near the drawing, which is not singular.
+#[test]
+fn a_rhombus_is_no_singular_drawing() {
+    let text = "dimension = 2\n[points]\nA = [0,0]\nB = [4,0]\nC = [4,4]\nD = [0,4]\nE = [2,2]\n[constraints]\n\
+        distances = [[\"A\",\"B\",4],[\"B\",\"C\",4],[\"C\",\"D\",4],[\"D\",\"A\",4]]\nfixed = [\"A\"]\n\
+        horizontal = [[\"A\",\"B\"]]\nmidpoint = [[\"E\",\"A\",\"C\"]]\non = [[\"E\",\"B\",\"D\"]]\n";
+    let found = census(text);
+    assert!(found.singular.is_none() && found.surplus.len() == 1);
+    let session = Session::open(&Problem::parse_loosely(text, "drawing.toml").unwrap()).unwrap();
+    assert!(session.singular().is_none());
 }

@@ -360,3 +360,39 @@ distances = [["top1","bot2",5],["front1","front2",3],["left1","left2",4]]
         }
     }
 }
+
+/// A length that is left out is in no equation of the others: the angle at it is what it has to be in every figure, and a ratio of it has figures.
+#[test]
+fn a_length_that_is_left_out_is_in_no_other_equation() {
+    let square = |side: &str, more: &str| {
+        let sides = ["A,B", "B,C", "C,D", "D,A"].map(|ends| {
+            let (a, b) = ends.split_once(',').unwrap();
+            format!("[\"{a}\",\"{b}\",{side}]")
+        });
+        let text = format!(
+            "dimension = 2\n[points]\nA = [0,0]\nB = [4,0]\nC = [4,4]\nD = [0,4]\nE = [3,2]\n[constraints]\ndistances = [{},{more}\n",
+            sides.join(",")
+        );
+        Problem::parse_loosely(&text, "square.toml").unwrap()
+    };
+    let problem = square(
+        "4",
+        "[\"A\",\"C\",5.656854249492381],[\"B\",\"D\",5.66],[\"B\",\"E\",2.2]]\nangles = [[\"D\",\"B\",\"E\",20]]",
+    );
+    let found = all(&problem, &options()).unwrap();
+    assert_eq!((found.status, found.solutions.len()), (Status::Complete, 2));
+    for solution in &found.solutions {
+        let [b, d, e] = [1, 3, 4].map(|p| solution.points[p].map(|x| x.mid()));
+        let to = |p: [f64; 3]| [p[0] - b[0], p[1] - b[1]];
+        let (u, v) = (to(d), to(e));
+        let cosine = (u[0] * v[0] + u[1] * v[1]) / (u[0].hypot(u[1]) * v[0].hypot(v[1]));
+        assert!((cosine.acos().to_degrees() - 20.0).abs() < 1e-9, "{cosine}");
+    }
+    // BD is 5.64271 and BE 2.25708, but for what BD is given as, which is 5.6.
+    let problem = square(
+        "3.99",
+        "[\"A\",\"C\",5.642712114714],[\"B\",\"D\",5.6],[\"A\",\"E\",1.74]]\nratios = [[\"B\",\"D\",\"B\",\"E\",2.5]]",
+    );
+    let found = all(&problem, &options()).unwrap();
+    assert_eq!(found.solutions.len(), 2, "{:?}", found.status);
+}

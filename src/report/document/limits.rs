@@ -2,7 +2,7 @@
 
 use super::{Bounds, Document, Drawing, Named, Points, Verb, all, bounds, names, points};
 use crate::blocks::Account;
-use crate::edit::{End, Moved, Range};
+use crate::edit::{End, Extreme, Moved, Range};
 use crate::interval::Interval;
 use crate::problem::Problem;
 use crate::report::limit_in_words;
@@ -29,9 +29,9 @@ keys! {
         /// Of what the ends are proved.
         account: Account = range.account.clone(),
         /// Where it shrinks to.
-        low: RangeEnd = RangeEnd::of(problem, &range.low, &range.low_figure),
+        low: RangeEnd = RangeEnd::of(problem, (&range.low, &range.extremes[0]), &range.low_figure),
         /// Where it grows to.
-        high: RangeEnd = RangeEnd::of(problem, &range.high, &range.high_figure),
+        high: RangeEnd = RangeEnd::of(problem, (&range.high, &range.extremes[1]), &range.high_figure),
     } or nothing {
         /// No figure has less, by the other distances alone.
         least: Option<f64> = range.reach[0].as_ref().map(|least| least.bound.inf()),
@@ -56,16 +56,35 @@ keys! {
         points: Option<Points<Bounds>> = None,
         /// Why nothing could be proved beyond.
         reason: Option<String> = None,
+        /// The end with nothing held.
+        extreme: Option<ExtremeOf> = None,
+    }
+}
+
+keys! {
+    /// A figure at which a dimension is the least, or the greatest, of all figures near it.
+    ExtremeOf(problem: &Problem, extreme: &Extreme) {
+        /// The dimension there.
+        value: Bounds = bounds(&extreme.value),
+        /// How far a point is at most from where it is at the end of the way that was followed.
+        apart: f64 = extreme.apart,
+        /// The figure.
+        points: Points<Bounds> = points(problem, &extreme.points),
     }
 }
 
 impl RangeEnd {
-    fn of(problem: &Problem, end: &End, figure: &[[Interval; 3]]) -> Self {
+    fn of(
+        problem: &Problem,
+        (end, extreme): (&End, &Option<Extreme>),
+        figure: &[[Interval; 3]],
+    ) -> Self {
         match end {
             End::Limit(value, limit) => RangeEnd {
                 flat: Some(all(&limit.flat, |set| names(problem, set))),
                 words: Some(limit_in_words(problem, limit)),
                 points: Some(points(problem, figure)),
+                extreme: extreme.as_ref().map(|found| ExtremeOf::new(problem, found)),
                 ..Self::new("limit", value)
             },
             End::Beyond(value) => Self::new("reached", value),

@@ -69,6 +69,14 @@ pub(super) fn page(reader: &Reader, limits: &Limits) -> Result<Page, ShowError> 
                 "{name}, the {which}{led}{scope}, {}: {told}",
                 digits(value)
             ));
+            if let Some(extreme) = &end.extreme {
+                words.push(format!(
+                    "{name}, the {which} with nothing held: {}, of a figure near that one, no point further than {} from where it is there. \
+                     No figure near goes further, however anything moves, proved",
+                    digits(extreme.value),
+                    rounded_up(extreme.apart)
+                ));
+            }
             page.figures.push(Figure {
                 name: format!("{name} = {}", near(middle(value))),
                 note: format!(

@@ -6,6 +6,7 @@
 
 mod axes;
 mod decompose;
+mod definite;
 mod inverse;
 mod large;
 mod least;
@@ -17,6 +18,7 @@ mod span;
 
 pub use axes::with_axes;
 pub use decompose::{Block, Blocks, LeftOver};
+pub use definite::is_positive_definite;
 pub use inverse::{Inverter, Singular};
 pub use large::{LARGE, Workers};
 pub use least::{

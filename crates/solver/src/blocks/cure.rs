@@ -2,7 +2,7 @@
 
 use super::System;
 use super::choose::PIVOT;
-use super::cut::straight;
+use super::cut::straight_apart;
 use super::drawn::Floats;
 use super::whose::Whose;
 use crate::problem::{Decimal, Problem};
@@ -29,7 +29,7 @@ pub(super) fn cures(
             *x = Decimal::try_from(at[u] * unit).ok()?;
         }
     }
-    let (rest, lowered) = straight(&rest).ok()?;
+    let (rest, lowered) = straight_apart(&rest).ok()?;
     let system = System::new(&rest, &lowered, |_| true);
     let unit = typical_length(&rest);
     let floats = Floats::new(&system, &lowered.tail.equations, unit);

@@ -7,6 +7,7 @@ use super::whose::Whose;
 use super::{Account, Block, Blocks, COARSE, Choice, Held, Row, Ruler, System, Verdict};
 use crate::constraint::{
     Entry, Fault, Lowered, Owner, Posed, Record, Role, Tail, own_number, try_lower_all,
+    try_lower_all_apart,
 };
 use crate::equations::Form;
 use crate::interval::{Interval, Real};
@@ -96,6 +97,16 @@ pub(crate) fn straight(problem: &Problem) -> Result<(Problem, Lowered), String> 
     Ok((problem, lowered))
 }
 
+/// The same, where equations are to be told apart: the numbers of distances are in no other equation, so that each can be left out by itself.
+pub(crate) fn straight_apart(problem: &Problem) -> Result<(Problem, Lowered), String> {
+    let (problem, lowered) = straight(problem)?;
+    let apart = match lowered.gives_lengths {
+        true => try_lower_all_apart(&problem).map_err(|fault| in_words(&problem, fault))?,
+        false => lowered,
+    };
+    Ok((problem, apart))
+}
+
 /// What is at fault with a problem's equations, in words.
 pub(crate) fn in_words(problem: &Problem, (owner, fault): (Owner, Fault)) -> String {
     match owner {
@@ -145,7 +156,15 @@ impl Cut {
 
     /// The same; a singular drawing is moved off that place in one of several ways, two and two in opposite directions.
     pub fn drawn(problem: &Problem, way: u64) -> Result<Self, String> {
-        let (problem, lowered) = straight(problem)?;
+        let whole = straight(problem)?;
+        let (gives_lengths, cut) = (whole.1.gives_lengths, Self::of(whole, way)?);
+        match gives_lengths && !cut.redundant.is_empty() {
+            true => Self::of(straight_apart(problem)?, way),
+            false => Ok(cut),
+        }
+    }
+
+    fn of((problem, lowered): (Problem, Lowered), way: u64) -> Result<Self, String> {
         let of = |&owner| Whose::of(&problem, owner);
         let owners: Vec<Whose> = lowered.owners.iter().map(of).collect();
         let is_dimension = |index: usize| owners[index].number(&problem).is_some();

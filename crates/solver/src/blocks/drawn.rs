@@ -10,7 +10,7 @@ use super::{Choice, FINE, Row, System};
 use crate::constraint::{Equation, Role};
 use crate::equations::{Form, left_side, slopes};
 use crate::interval::{Real, point};
-use crate::linalg::{Linear, decomposed, linearised, nearest_zero, scaled, shortest};
+use crate::linalg::{Linear, decomposed, linearised, nearest, nearest_zero, scaled, shortest};
 use crate::map::Map;
 use crate::order::each_once;
 use crate::random::Random;
@@ -185,6 +185,18 @@ impl<'a> Floats<'a> {
         self.zero(at, &|at| self.linearise(rows, at))
     }
 
+    /// A place near this one that meets rows of which some may depend on others wherever they are met. There Newton's method leaps, so that damped steps lead to
+    /// where they are nearly met; and from there those rows alone do that say something new, as all of them get no nearer than about 1e-7.
+    fn figure(&self, rows: &[usize], at: Vec<f64>) -> Option<Vec<f64>> {
+        let near = nearest(DVector::from_vec(at), [1e-13, 1.0], &|at| {
+            self.linearise(rows, at)
+        });
+        let near: Vec<f64> = near.data.into();
+        let own = self.independent(rows, &near, CLEAR).0;
+        let near = self.meet(&own, near)?;
+        (self.missed(rows, &near) < MET).then_some(near)
+    }
+
     /// The same of rows that are linearised so.
     pub fn zero(&self, at: Vec<f64>, linearise: &dyn Fn(&[f64]) -> Linear) -> Option<Vec<f64>> {
         nearest_zero(at, 1e-10, linearise).filter(|at| self.is_proper(at))
@@ -230,7 +242,7 @@ pub(crate) fn look(
     };
     let is_met = floats.missed(&all, at) < MET;
     let ways = (0..2 * SEEDS).filter_map(beside);
-    let figures: Vec<Vec<f64>> = ways.filter_map(|at| floats.meet(&all, at)).collect();
+    let figures: Vec<Vec<f64>> = ways.filter_map(|at| floats.figure(&all, at)).collect();
     let clear = |at: &[f64]| floats.independent(&all, at, CLEAR).0.len();
     let clear_here = clear(at);
     let seen = match figures.first() {

@@ -9,7 +9,7 @@
 
 use super::account::half_digit;
 use super::cure::cures;
-use super::cut::straight;
+use super::cut::straight_apart;
 use super::drawn::{Floats, Seen};
 use super::follows::{Given, combination};
 use super::freedom::Freedom;
@@ -93,7 +93,7 @@ pub struct Census {
 /// # Errors
 /// What is wrong with the problem, in words.
 pub fn surplus(problem: &Problem) -> Result<Census, String> {
-    let (problem, lowered) = straight(problem)?;
+    let (problem, lowered) = straight_apart(problem)?;
     // No unknowns are merged: what says that two are one is an equation like others here.
     let system = System::new(&problem, &lowered, |_| true);
     let width = system.unknowns.len();

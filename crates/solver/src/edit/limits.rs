@@ -2,7 +2,7 @@
 
 use super::ending::{Edited, Ending, Keep, Limit};
 use super::setting::measure_of;
-use super::{Session, Setting, held_though_computed};
+use super::{Extreme, Session, Setting, held_though_computed};
 use crate::blocks::Account;
 use crate::constraint::Measure;
 use crate::interval::Interval;
@@ -43,6 +43,8 @@ pub struct Range {
     pub high_figure: Vec<[Interval; 3]>,
     /// What both ends are proved of.
     pub account: Account,
+    /// Where coordinates are held on the way to an end that is a limit: what the end is with nothing held, if that is proved.
+    pub extremes: [Option<Extreme>; 2],
     /// The least and the greatest that no figure goes beyond, by the other distances alone.
     pub reach: [Option<Reach>; 2],
 }
@@ -90,7 +92,10 @@ impl Session {
             _ => (SMALLEST * value.mid(), value.mid() / SMALLEST),
         };
         let ends = [low, high].map(|goal| self.end(index, goal, control));
-        let [(low, low_figure, mut account), (high, high_figure, other)] = ends;
+        let [
+            (low, low_figure, mut account, least),
+            (high, high_figure, other, greatest),
+        ] = ends;
         account.join(&other);
         account.held_though_computed = held_though_computed(self.problem(), &[index]);
         // What is left out may be missed by a little, and what is computed from the same parameters is another length then.
@@ -106,6 +111,7 @@ impl Session {
             low_figure,
             high_figure,
             account,
+            extremes: [least, greatest],
             reach,
         }
     }
@@ -124,7 +130,7 @@ impl Session {
         index: usize,
         goal: f64,
         control: &mut Control,
-    ) -> (End, Vec<[Interval; 3]>, Account) {
+    ) -> (End, Vec<[Interval; 3]>, Account, Option<Extreme>) {
         let rounded = match measure_of(self.problem(), index) {
             // So many digits that it stays below 180, or 90.
             angle @ (Measure::Degrees | Measure::Slope) => {
@@ -142,7 +148,7 @@ impl Session {
         let Ok(goal) = rounded else {
             let reason = format!("{goal:e} is out of the range of lengths");
             let end = End::Unknown(self.length(index), reason);
-            return (end, self.points(), self.account());
+            return (end, self.points(), self.account(), None);
         };
         let setting = Setting::to(index, goal);
         let Edited {
@@ -155,7 +161,7 @@ impl Session {
         } = self.follow_to(slice::from_ref(&setting), Keep::Never, control);
         if let Some(astray) = astray {
             let end = End::Unknown(astray.values[0], astray.stop.text);
-            return (end, self.points(), astray.account);
+            return (end, self.points(), astray.account, None);
         }
         let is_contradicted =
             matches!(&ending, Ending::Stopped(stop) if stop.kind == StopKind::Contradiction);
@@ -174,6 +180,16 @@ impl Session {
             ),
             Ending::Stopped(reason) => End::Unknown(value, reason.text),
         };
-        (end, points, account)
+        let extreme = match end {
+            End::Limit(..) if !account.held.is_empty() => self.extreme(&setting, &points),
+            _ => None,
+        };
+        // What was led to is a figure: those that go less far are extreme among others.
+        let goes_up = setting.value().mid() > self.length(index).mid();
+        let extreme = extreme.filter(|found| match goes_up {
+            true => found.value.sup() >= value.inf(),
+            false => found.value.inf() <= value.sup(),
+        });
+        (end, points, account, extreme)
     }
 }

@@ -66,6 +66,7 @@ pub use limited::Limits;
 pub(crate) use limited::{Limited, Part, Value};
 pub use limits::{End, Range};
 pub use open::{Moved, OpenError};
+pub use parts::Extreme;
 pub(crate) use round::Round;
 pub use round::WayEnd;
 pub use session::{Decomposition, Session, Standing, TooMany, completed};

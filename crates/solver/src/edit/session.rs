@@ -3,7 +3,7 @@
 use super::drag::Drag;
 use super::ending::{Edited, Ending, Keep, Orientations};
 use super::open::{Moved, OpenError};
-use super::parts::Parts;
+use super::parts::{Extreme, Parts};
 use super::segments::kept_apart_in_words;
 use super::setting::Setting;
 use super::way::Way;
@@ -250,6 +250,12 @@ impl Session {
         control: &mut Control,
     ) -> Edited {
         self.way.follow_to(settings, keep, control)
+    }
+
+    /// A figure near the end of a way on which one dimension was led as far as it goes with coordinates held, at which it goes furthest with
+    /// nothing held, if one is proved.
+    pub(super) fn extreme(&self, setting: &Setting, end: &[[Interval; 3]]) -> Option<Extreme> {
+        self.way.extreme(setting, end)
     }
 
     /// What [`Session::edit`] would come to; the figure stays what it is.

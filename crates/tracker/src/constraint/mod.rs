@@ -131,17 +131,23 @@ pub fn lower(problem: &Problem, sketch: &[[Interval; 3]]) -> Tail {
 #[doc(hidden)]
 pub fn try_lower_for_sets(
     problem: &Problem,
-    leave_out: impl FnOnce(&mut Lowered) -> Result<Vec<Spare>, Fault>,
+    leave_out: impl Fn(&mut Lowered) -> Result<Vec<Spare>, Fault>,
 ) -> Result<(Tail, Vec<Spare>), Fault> {
-    let low = Lowering::new(problem, Start::Sketch, false).with_headings();
+    let low = || Lowering::new(problem, Start::Sketch, false).with_headings();
     let which = match has_distances_in_sets(problem) {
         true => Which::AllForSets,
         false => Which::Constraints,
     };
-    let mut lowered = try_lower_from(problem, low, which).map_err(|(_, fault)| fault)?;
-    let spare = leave_out(&mut lowered)?;
-    // Lengths are positive in a problem that has been checked.
+    let lower = |low| try_lower_from(problem, low, which).map_err(|(_, fault)| fault);
+    let mut lowered = lower(low())?;
+    let mut spare = leave_out(&mut lowered)?;
     let first = problem.objects.len() + problem.constraints.len() + 1;
+    // The number of a distance that is left out is in no other equation.
+    if lowered.gives_lengths && spare.iter().any(|spare| spare.owner >= first) {
+        lowered = lower(low().with_dimensions_apart())?;
+        spare = leave_out(&mut lowered)?;
+    }
+    // Lengths are positive in a problem that has been checked.
     let is_left_out = |index: usize| spare.iter().any(|spare| spare.owner == first + index);
     let used = problem.distances.iter().enumerate();
     let used = used.filter(|(index, _)| !is_left_out(*index));
@@ -225,6 +231,14 @@ pub fn try_lower(problem: &Problem) -> Result<Lowered, (Owner, Fault)> {
 pub fn try_lower_all(problem: &Problem, from: Option<&Record>) -> Result<Lowered, (Owner, Fault)> {
     let from = from.map_or(Start::Sketch, Start::Dimensions);
     try_lower_from(problem, Lowering::new(problem, from, true), Which::AllFree)
+}
+
+/// The same from the sketch, with the numbers of distances in no other equation: whichever of them are left out, the others say what their
+/// constraints say.
+#[doc(hidden)]
+pub fn try_lower_all_apart(problem: &Problem) -> Result<Lowered, (Owner, Fault)> {
+    let low = Lowering::new(problem, Start::Sketch, true).with_dimensions_apart();
+    try_lower_from(problem, low, Which::AllFree)
 }
 
 /// The equations of all constraints of a problem that are not distances between points, as [`lower`] makes them, but with

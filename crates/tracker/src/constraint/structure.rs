@@ -8,7 +8,7 @@
 
 use super::lowering::Lowered;
 use super::quadratic::{Entry, Form};
-use super::{Owner, try_lower, try_lower_editable};
+use super::{Owner, try_lower, try_lower_apart, try_lower_editable};
 use crate::elimination::Echelon;
 use crate::equations::{Product, Ring};
 use crate::places::Each as _;
@@ -30,7 +30,10 @@ struct System<'a> {
 
 impl<'a> System<'a> {
     fn new(problem: &'a Problem) -> Result<Self, (Owner, String)> {
-        let lowered = try_lower(problem)?;
+        Ok(Self::of(problem, try_lower(problem)?))
+    }
+
+    fn of(problem: &'a Problem, lowered: Lowered) -> Self {
         let mut columns = vec![None; problem.points.len() * problem.dimension];
         let mut width = 0;
         for point in 0..problem.points.len() {
@@ -42,12 +45,12 @@ impl<'a> System<'a> {
             }
         }
         width += lowered.tail.unknowns.len();
-        Ok(System {
+        System {
             problem,
             lowered,
             columns,
             width,
-        })
+        }
     }
 
     fn equations(&self) -> usize {
@@ -173,17 +176,24 @@ type Blame = Option<(Owner, bool)>;
 
 /// What is wrong with a constraint, or with all of them together: what to point at, and a message.
 pub fn check_structure(problem: &Problem) -> Result<(), (Blame, String)> {
-    let system = System::new(problem).map_err(|(owner, fault)| (Some((owner, true)), fault))?;
-    let found = system.eliminate();
+    let at_fault = |(owner, fault): (Owner, String)| (Some((owner, true)), fault);
+    let mut system = System::new(problem).map_err(at_fault)?;
+    let mut found = system.eliminate();
     let (equations, unknowns) = (system.equations(), system.width);
     if equations == unknowns && found.rows.rank == unknowns {
         return Ok(());
+    }
+    let auxiliary = system.lowered.tail.unknowns.len();
+    let (to_spare, is_loose) = (equations - found.rows.rank, found.rows.rank < unknowns);
+    // Which constraints depend on each other is told from equations that have no number of a distance in them.
+    if found.circuit.is_some() && system.lowered.gives_lengths {
+        system = System::of(problem, try_lower_apart(problem).map_err(at_fault)?);
+        found = system.eliminate();
     }
     let mut parts = Vec::new();
     let mut place = None;
     if let Some(circuit) = &found.circuit {
         let names = system.names(circuit.iter().copied());
-        let to_spare = equations - found.rows.rank;
         let in_part = |equation: &usize| !system.is_whole(*equation);
         let whole = system.names(circuit.iter().copied().filter(|e| !in_part(e)));
         let remove = match whole.as_slice() {
@@ -218,7 +228,7 @@ pub fn check_structure(problem: &Problem) -> Result<(), (Blame, String)> {
                 _ => None,
             });
     }
-    if found.rows.rank < unknowns {
+    if is_loose {
         let motion = found.motion();
         let movers = system.movers(|column| motion[column] != Residue::whole(0));
         let against = if problem.is_absolute() {
@@ -235,7 +245,6 @@ pub fn check_structure(problem: &Problem) -> Result<(), (Blame, String)> {
             list(&movers, LISTED),
         ));
     }
-    let auxiliary = system.lowered.tail.unknowns.len();
     let kinds = match problem.points.is_empty() {
         true => String::new(),
         false => format!(

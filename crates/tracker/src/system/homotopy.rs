@@ -114,7 +114,7 @@ impl Homotopy {
     pub fn for_sets_without(
         problem: &Problem,
         unit: f64,
-        leave_out: impl FnOnce(
+        leave_out: impl Fn(
             &mut constraint::Lowered,
             &Gauge,
             &[[Interval; 3]],

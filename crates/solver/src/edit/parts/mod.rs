@@ -10,6 +10,7 @@ mod anew;
 mod contacts;
 mod drag;
 mod exact;
+mod extreme;
 mod follow;
 mod left_out;
 mod off;
@@ -34,6 +35,7 @@ use crate::system::{Extent, Located, Segment};
 use crate::track::arc::{ArcEnd, ArcRun, Figure, Fold, Orientation};
 use crate::track::certified::FollowArcs;
 use crate::track::{Control, Options, StartError, Stop, StopKind};
+pub use extreme::Extreme;
 use left_out::at_rest_all;
 use std::collections::{BTreeSet, HashMap};
 use std::ops::Range;
@@ -534,6 +536,10 @@ impl Way for Parts {
 
     fn drag(&mut self, drags: &[Drag], control: &mut Control) -> Edited {
         self.drag(drags, control)
+    }
+
+    fn extreme(&self, setting: &Setting, end: &[[Interval; 3]]) -> Option<Extreme> {
+        self.extreme(setting, end)
     }
 
     fn parts(&self) -> Option<&Parts> {

@@ -78,7 +78,10 @@ impl Lowering<'_> {
             known: self
                 .distances
                 .get(&[from.min(to), from.max(to)])
-                .map(|&index| self.given_length(index)),
+                .map(|&index| {
+                    self.gives_lengths.set(true);
+                    self.given_length(index)
+                }),
             name,
             ..arrow
         })

@@ -22,6 +22,7 @@ use crate::interval::Real;
 use crate::places::array;
 use crate::rational::Rational;
 use crate::statement::{Item, Problem, Target};
+use std::cell::Cell;
 use std::collections::HashMap;
 use std::rc::Rc;
 
@@ -59,6 +60,8 @@ pub struct Lowering<'a> {
     record: Record,
     /// Index of the distance between two points, the lower first.
     distances: HashMap<[usize; 2], usize>,
+    /// See [`Lowered::gives_lengths`].
+    gives_lengths: Cell<bool>,
     /// Lengths that are entries of equations already.
     lengths: HashMap<[Form; 3], Entry>,
     /// Whether vectors are divided by their lengths, see `heading`.
@@ -108,6 +111,9 @@ pub struct Lowered {
     pub owners: Vec<usize>,
     /// For each equation whether its right-hand side is zero at t = 1.
     pub vanishing: Vec<bool>,
+    /// Whether equations of constraints have the numbers of distances in them: they do not say what the constraints say where such a
+    /// distance is left out.
+    pub gives_lengths: bool,
 }
 
 /// An equation that was left out where there are more than unknowns.
@@ -143,6 +149,7 @@ impl<'a> Lowering<'a> {
                     ([a.min(b), a.max(b)], index)
                 })
                 .collect(),
+            gives_lengths: Cell::new(false),
             lengths: HashMap::new(),
             has_headings: false,
             headings: HashMap::new(),
@@ -205,6 +212,7 @@ impl<'a> Lowering<'a> {
             values: self.values,
             owners: self.owners,
             vanishing: self.vanishing,
+            gives_lengths: self.gives_lengths.get(),
         }
     }
 
