@@ -20,6 +20,8 @@ pub struct Decimal {
     value: Rational,
     /// What it was computed by, if it was.
     expression: Option<Box<str>>,
+    /// How far down and up it may be, if that is said with it.
+    tolerance: Option<Box<[Decimal; 2]>>,
 }
 
 /// Why a text is not a decimal that krawl takes.
@@ -64,6 +66,30 @@ impl Decimal {
             expression: Some(expression.into()),
             ..self
         }
+    }
+
+    /// How far down (a number that is mostly less than 0) and up it may be, if that was said with it, as in `4.2 ± 0.05`.
+    pub fn tolerance(&self) -> Option<&[Decimal; 2]> {
+        self.tolerance.as_deref()
+    }
+
+    /// The same number, with a tolerance or without.
+    pub fn with_tolerance(self, tolerance: Option<&[Decimal; 2]>) -> Self {
+        Decimal {
+            tolerance: tolerance.cloned().map(Box::new),
+            ..self
+        }
+    }
+
+    /// The least and the greatest number that its own tolerance allows.
+    pub fn limits(&self) -> Option<[Decimal; 2]> {
+        // What is out of range was refused as it was read.
+        self.within(self.tolerance()?).ok()
+    }
+
+    /// The least and the greatest number that a tolerance allows. An error: one is out of the range of numbers.
+    pub fn within(&self, [down, up]: &[Decimal; 2]) -> Result<[Decimal; 2], DecimalError> {
+        Ok([self.plus(down)?, self.plus(up)?])
     }
 
     /// The exact value.
@@ -128,6 +154,7 @@ impl Decimal {
             value: -self.value.clone(),
             text,
             expression: None,
+            tolerance: None,
         }
     }
 }
@@ -200,6 +227,7 @@ impl FromStr for Decimal {
             text,
             value,
             expression: None,
+            tolerance: None,
         })
     }
 }
@@ -222,6 +250,7 @@ impl From<i32> for Decimal {
             text: value.to_string(),
             value: Rational::from(BigInt::from(value)),
             expression: None,
+            tolerance: None,
         }
     }
 }
