@@ -275,6 +275,8 @@ impl Family {
     fn contracts(&mut self) -> bool {
         /// Less than this is sought for a while.
         const ENOUGH: f64 = 0.5;
+        /// Or until the next one is no less than this part of the one before.
+        const SETTLED: f64 = 0.97;
         let sizes: Vec<f64> = self.around.iter().map(|x| x.mag()).collect();
         // What hardly moves is not weighed as if nothing about it could be wrong.
         let least = 1e-3 * sizes.iter().copied().fold(f64::EPSILON, f64::max);
@@ -285,8 +287,13 @@ impl Family {
             let norm = greatest_part(&image, &weights);
             let next = first.iter().zip(&image).map(|(a, b)| a + b).collect();
             let tried = std::mem::replace(&mut weights, next);
-            if norm < self.contraction {
+            let before = self.contraction;
+            if norm < before {
                 (self.weights, self.contraction) = (tried, norm);
+            }
+            // It does, and will not do much better.
+            if before < 1.0 && norm > SETTLED * before {
+                break;
             }
             let is_far = weights.iter().any(|s| s.is_nan() || *s > FAR);
             if norm < ENOUGH || norm.is_nan() || is_far {
