@@ -11,3 +11,4 @@ target/release/krawl solve problems/octahedron.toml --quiet --animation docs/pic
 # The bracket, without the names of its points (several are in one place) and the lines through its edges.
 target/release/krawl edit problems/sketches/bracket.slvs --set c008=64 --quiet --svg "$folder/bracket.svg"
 grep -vE 'stroke-dasharray|>r0[0-9a-f.]*</text>' "$folder/bracket.svg" >docs/pictures/bracket-edit.svg
+target/release/krawl tolerance docs/examples/hinge.toml --quiet --svg docs/pictures/hinge-bands.svg

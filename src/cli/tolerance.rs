@@ -22,7 +22,8 @@ use std::time::Instant;
 /// Every dimension within its limits: between which bounds lengths, angles and areas then are, with proof
 ///
 /// For all choices of all dimensions together there is exactly one figure that the one in FILE becomes, and what is measured stays within the
-/// worst case that is printed; so much of it is due to each dimension. Limits are in FILE under [tolerances], or given here.
+/// worst case that is printed; so much of it is due to each dimension. Limits are in FILE, with a number or
+/// under [tolerances], or given here.
 #[derive(clap::Args)]
 #[command(after_long_help = "\
 Examples:

@@ -252,6 +252,178 @@ fn turns_and_torsions_stay_what_they_are() {
     }
 }
 
+/// Cosine and sine of a turn go together: across where one of them turns back, too. And of a chain in space.
+#[test]
+fn turns_and_torsions_have_limits() {
+    let mut dice = Dice(11);
+    for (turn, low, high) in [
+        (440.0, 438.5, 441.0),
+        (-2.0, -5.0, 4.0),
+        (91.0, 86.0, 97.0),
+        (30.0, 20.0, 50.0),
+    ] {
+        let at: f64 = f64::to_radians(turn);
+        let [x, y] = [3.0 * at.cos() + 0.1, 3.0 * at.sin() - 0.05];
+        let text = format!(
+            "dimension = 2\n[points]\na = [0, 0]\nb = [4, 0]\nc = [{x}, {y}]\nd = [{}, {y}]\n[constraints]\nfixed = [\"a\", \"b\"]\n\
+             distances = [[\"a\", \"c\", \"3 ± 0.1\"]]\nturns = [[\"b\", \"a\", \"c\", \"{turn} {:+} {:+}\"]]\n\
+             dx = [[\"c\", \"d\", 1]]\ndy = [[\"c\", \"d\", 0]]\n",
+            x + 1.0,
+            low - turn,
+            high - turn
+        );
+        let problem = Problem::parse(&text, "turn.toml").unwrap();
+        let within = limits(&problem, &[], None).unwrap();
+        let asked = ["x c", "y c", "b-d", "turn b a c"];
+        let study = run(&problem, &within, &asked).unwrap();
+        let value = |length: f64, turn: f64| {
+            let (y, x) = turn.to_radians().sin_cos();
+            let (x, y) = (length * x, length * y);
+            [
+                x,
+                y,
+                (x + 1.0 - 4.0).hypot(y),
+                turn - 360.0 * (turn / 360.0).round(),
+            ]
+        };
+        let (mut least, mut greatest) = ([f64::INFINITY; 4], [f64::NEG_INFINITY; 4]);
+        for round in 0..20_000 {
+            let mut part = || match round % 3 {
+                0 => dice.uniform().round(),
+                _ => dice.uniform(),
+            };
+            let value = value(2.9 + 0.2 * part(), low + (high - low) * part());
+            for ((x, least), greatest) in value.iter().zip(&mut least).zip(&mut greatest) {
+                (*least, *greatest) = (least.min(*x), greatest.max(*x));
+            }
+        }
+        for (k, measured) in study.measured.iter().enumerate() {
+            let [low, high] = measured.bounds;
+            let wide = greatest[k] - least[k];
+            let what = || format!("{turn} {measured:?} {} {}", least[k], greatest[k]);
+            assert!(
+                low.inf() <= least[k] + 1e-9 && greatest[k] - 1e-9 <= high.sup(),
+                "{}",
+                what()
+            );
+            let gap = (least[k] - low.inf()).max(high.sup() - greatest[k]);
+            assert!(gap < 0.02 * wide, "{}", what());
+            for (corner, inner) in measured.corners.iter().zip([low.sup(), high.inf()]) {
+                if let [length, turn] = &corner[..] {
+                    let there = value(length.to_f64(), turn.to_f64())[k];
+                    assert!((there - inner).abs() < 1e-8, "{}", what());
+                }
+            }
+        }
+        let effects = |k: usize| study.measured[k].effects.clone();
+        let slope = |k: usize| {
+            let [ahead, back] = [1e-4, -1e-4].map(|by| value(3.0, turn + by)[k]);
+            (ahead - back) / 2e-4 * (high - low)
+        };
+        assert!((0..3).all(|k| (effects(k)[1] - slope(k)).abs() < 1e-3 * (high - low)));
+    }
+    let chain = "dimension = 3\n[points]\na = [0, 0, 0]\nb = [1.5, 0, 0]\nc = [2.1, 1.4, 0]\nd = [3, 1.6, 1]\n\
+                 [constraints]\ndistances = [[\"a\", \"b\", 1.5], [\"b\", \"c\", 1.5], [\"c\", \"d\", 1.5]]\n\
+                 angles = [[\"a\", \"b\", \"c\", 110], [\"b\", \"c\", \"d\", 110]]\n\
+                 torsions = [[\"a\", \"b\", \"c\", \"d\", [-75, -65]]]\n";
+    let problem = Problem::parse(chain, "chain.toml").unwrap();
+    let within = limits(&problem, &[], None).unwrap();
+    let study = run(&problem, &within, &["a-d", "torsion a b c d"]).unwrap();
+    // Of four points with equal bonds and angles.
+    let far = |torsion: f64| {
+        let (along, beside) = (
+            1.5 * (2.0 * 70f64.to_radians().cos() + 1.0),
+            1.5 * 70f64.to_radians().sin(),
+        );
+        let half = (0.5 * torsion.to_radians()).sin();
+        along.hypot(2.0 * beside * half)
+    };
+    let [low, high] = study.measured[0].bounds;
+    assert!(
+        low.contains(far(65.0)) && high.contains(far(75.0)),
+        "{low:?} {high:?}"
+    );
+    assert!(low.wid() + high.wid() < 1e-3, "{low:?} {high:?}");
+    let [low, high] = study.measured[1].bounds;
+    assert!(
+        low.contains(-75.0) && high.contains(-65.0),
+        "{low:?} {high:?}"
+    );
+    let wide = chain.replace("[-75, -65]", "[-150, 30]");
+    let problem = Problem::parse(&wide, "chain.toml").unwrap();
+    let within = limits(&problem, &[], None).unwrap();
+    let error = run(&problem, &within, &["a-d"]).unwrap_err();
+    assert!(error.contains("180 degrees apart or more"), "{error}");
+}
+
+/// Where nothing is asked for, and constraints say where the figure is, the ends of its edges are measured, but for those that stay.
+#[test]
+fn ends_of_edges_are_measured() {
+    let text = "dimension = 2\n[points]\na = [0, 0]\nb = [4, 0]\nc = [4, 3]\nd = [2, 1]\n[lines]\nbase = [\"a\", \"b\"]\nside = [\"b\", \"c\"]\n\
+                [constraints]\nfixed = [\"a\"]\nhorizontal = [\"base\"]\nvertical = [\"side\"]\ndx = [[\"a\", \"b\", \"4 ± 0.25\"], [\"a\", \"d\", 2]]\n\
+                dy = [[\"b\", \"c\", [2.5, 3.5]], [\"a\", \"d\", 1]]\n";
+    let problem = Problem::parse(text, "edges.toml").unwrap();
+    let within = limits(&problem, &[], None).unwrap();
+    let study = run(&problem, &within, &[]).unwrap();
+    let found = study.measured.iter().map(|measured| {
+        let [low, high] = measured.bounds;
+        assert!(low.wid() + high.wid() < 1e-9);
+        (measured.name.as_str(), low.mid(), high.mid())
+    });
+    for (found, wanted) in found.zip([
+        ("x b", 3.75, 4.25),
+        ("y b", 0.0, 0.0),
+        ("x c", 3.75, 4.25),
+        ("y c", 2.5, 3.5),
+    ]) {
+        let is_it =
+            found.0 == wanted.0 && (found.1 - wanted.1).abs() + (found.2 - wanted.2).abs() < 1e-9;
+        assert!(is_it, "{found:?} {wanted:?}");
+    }
+    assert_eq!(study.measured.len(), 4);
+}
+
+/// Of a length given by its square: the length's limits, or with the number those of the square.
+#[test]
+fn squares_have_limits() {
+    let of = |square: &str, rest: &str| {
+        let text = format!(
+            "dimension = 2\n[points]\na = [0, 0]\nb = [4, 0]\nc = [0, 3]\n[constraints]\n\
+             distances = [[\"a\", \"b\", 4], [\"a\", \"c\", 3]]\nsquared_distances = [[\"b\", \"c\", {square}]]\n{rest}"
+        );
+        Problem::parse(&text, "square.toml").unwrap()
+    };
+    let angle = |length: f64| ((25.0 - length * length) / 24.0).acos().to_degrees();
+    let (root, by) = (20f64.sqrt(), 0.1);
+    for (square, rest, low, high) in [
+        (
+            "20",
+            "[tolerances]\ndefault = 0.1\n\"a-b\" = 0\n\"a-c\" = 0\n",
+            root - by,
+            root + by,
+        ),
+        ("[19, 21]", "", 19f64.sqrt(), 21f64.sqrt()),
+    ] {
+        let problem = of(square, rest);
+        let within = limits(&problem, &[], None).unwrap();
+        let study = run(&problem, &within, &["angle b a c", "b-c"]).unwrap();
+        for (bound, length) in study.measured[0].bounds.into_iter().zip([low, high]) {
+            let is_there = (bound.mid() - angle(length)).abs() < 1e-3;
+            assert!(is_there && bound.wid() < 1e-3, "{bound:?} {length}");
+        }
+        let [least, greatest] = study.measured[1].bounds;
+        assert!(
+            least.inf() <= low && high <= greatest.sup(),
+            "{least:?} {greatest:?}"
+        );
+        assert!(least.inf() > low - 1e-12 && greatest.sup() < high + 1e-12);
+    }
+    let problem = of("20", "[tolerances]\nb-c = [0.1, 0.2]\n");
+    let within = limits(&problem, &[], None).unwrap();
+    let error = run(&problem, &within, &["b-c"]).unwrap_err();
+    assert!(error.contains("given by its square"), "{error}");
+}
+
 #[test]
 fn what_is_not_proved_or_makes_no_sense_is_said() {
     let problem = Problem::read("docs/examples/plate.toml").unwrap();

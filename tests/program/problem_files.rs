@@ -235,6 +235,16 @@ const BAD: &[Case] = &[
     ("length negative", "1.3]", "-1.3]", 15, &["c-d", "-1.3", "greater than zero"]),
     ("length missing", ", 1.3]", "]", 15, &["constraints.distances", "a list of 2"]),
     ("length text", "1.3]", "\"1.3\"]", 15, &["c-d", "without quotes"]),
+    ("limits the wrong way round", "1.3]", "[1.4, 1.3]]", 15, &["c-d", "the lower one first", "[1.4, 1.3]"]),
+    ("one limit", "1.3]", "[1.4]]", 15, &["c-d", "limits"]),
+    ("a limit in quotes", "1.3]", "[1.2, \"1.4\"]]", 15, &["c-d", "without quotes"]),
+    ("a limit below zero", "1.3]", "[-0.5, 1.3]]", 15, &["a limit of the distance c-d is -0.5"]),
+    ("a tolerance below zero", "1.3]", "\"1.3 ± -0.1\"]", 15, &["c-d", "limits"]),
+    ("a tolerance of words", "1.3]", "\"1.3 ± some\"]", 15, &["c-d", "limits"]),
+    ("a tolerance too large", "1.3]", "\"1.3 +- 2\"]", 15, &["a limit of the distance c-d is -0.7"]),
+    ("limits or an expression", "[constraints]", "[parameters]\nw = 1\n[constraints]\ndx = [[\"a\", \"b\", \"90 +0.1 -0.2\"]]", 14, &["dx: a-b", "as the file has parameters"]),
+    ("a computed number with limits", "[constraints]", "[parameters]\nw = 1\n[constraints]\ndx = [[\"a\", \"b\", \"w ± 0.1\"]]", 14, &["dx: a-b", "[tolerances]"]),
+    ("an angle with a limit beyond 180", "[constraints]", "[constraints]\nangles = [[\"a\", \"b\", \"c\", \"179 ± 2\"]]", 12, &["a limit is 181", "180"]),
     ("point no text", "\"d\", 1.3]", "4, 1.3]", 15, &["constraints.distances", "`4`"]),
     ("distances no list", "distances = [", "squared_distances = 3\ndistances = [", 12, &["constraints.squared_distances", "`3`"]),
     ("self distance", "[\"c\", \"d\", 1.3]", "[\"c\", \"c\", 1.3]", 15, &["c-c", "itself"]),
@@ -290,6 +300,89 @@ fn bad_input_is_refused_with_place_and_names() {
             assert!(message.contains(part), "{what}: `{part}` not in: {message}");
         }
     }
+}
+
+/// A number with limits is their middle, or what it is written with; and it is written so again.
+#[test]
+fn numbers_have_limits() {
+    for (written, number, low, high, again) in [
+        ("[1.2, 1.35]", "1.275", "1.2", "1.35", "\"1.275 ± 0.075\""),
+        ("[1, 1]", "1", "1", "1", "\"1 ± 0\""),
+        ("\"1.3 ± 0.05\"", "1.3", "1.25", "1.35", "\"1.3 ± 0.05\""),
+        ("\"1.3±0.05\"", "1.3", "1.25", "1.35", "\"1.3 ± 0.05\""),
+        ("\"1.3 +- 5e-2\"", "1.3", "1.25", "1.35", "\"1.3 ± 5e-2\""),
+        ("\"1.3 +/- 0.05\"", "1.3", "1.25", "1.35", "\"1.3 ± 0.05\""),
+        (
+            "\"1.3 +0.1 -0.2\"",
+            "1.3",
+            "1.1",
+            "1.4",
+            "\"1.3 +0.1 -0.2\"",
+        ),
+        (
+            "\"1.3 −0.2 +0.1\"",
+            "1.3",
+            "1.1",
+            "1.4",
+            "\"1.3 +0.1 -0.2\"",
+        ),
+        ("\"1.3 0 -0.2\"", "1.3", "1.1", "1.3", "\"1.3 +0 -0.2\""),
+        (
+            "\"1.3 +0.2 +0.1\"",
+            "1.3",
+            "1.4",
+            "1.5",
+            "\"1.3 +0.2 +0.1\"",
+        ),
+    ] {
+        let text = SQUARE.replacen("1.3]", &format!("{written}]"), 1);
+        let problem = Problem::parse(&text, "square.toml").unwrap();
+        let index = problem.distances.iter().position(
+            |d| matches!(&d.target, Target::Length(number) if number.tolerance().is_some()),
+        );
+        let Target::Length(length) = &problem.distances[index.unwrap()].target else {
+            unreachable!("it is a length")
+        };
+        assert_eq!(*length, decimal(number), "{written}");
+        assert_eq!(length.limits(), Some([low, high].map(decimal)), "{written}");
+        let once = problem.to_toml();
+        assert!(once.contains(&format!("\"d\", {again}]")), "{once}");
+        let back = Problem::parse(&once, "again.toml").unwrap();
+        assert_eq!(once, back.to_toml());
+    }
+}
+
+/// An edit keeps the tolerances of a file, and nothing else of it changes.
+#[test]
+fn edits_keep_limits() {
+    let folder = tempfile::tempdir().unwrap();
+    let [file, out] = ["in.toml", "out.toml"].map(|name| folder.path().join(name));
+    let text = "dimension = 2\n[points]\na = [0, 0]\nb = [4, 0]\nc = [0, 3]\n[constraints]\n\
+                distances = [[\"a\", \"b\", [3.9, 4.1]], [\"a\", \"c\", \"3 +0.1 -0.2\"]] # two\n\
+                angles = [[\"b\", \"a\", \"c\", \"90 +- 0.5\"]]\n";
+    fs::write(&file, text).unwrap();
+    let run = |set: &[&str]| {
+        let arguments = set.iter().flat_map(|one| ["--set", one]);
+        let mut command = krawl();
+        command.arg("edit").arg(&file).args(arguments);
+        command.arg("--out").arg(&out).output().unwrap()
+    };
+    let done = run(&["a-b=5", "a-c=2", "angles:b-a-c=80"]);
+    assert_eq!(done.status.code(), Some(0), "{done:?}");
+    let written = fs::read_to_string(&out).unwrap();
+    for part in [
+        "[\"a\", \"b\", [4.9, 5.1]], [\"a\", \"c\", \"2 +0.1 -0.2\"]] # two",
+        "[\"b\", \"a\", \"c\", \"80 ± 0.5\"]",
+    ] {
+        assert!(written.contains(part), "{written}");
+    }
+    // What could not be read again is not written.
+    let done = run(&["a-c=0.15"]);
+    let error = String::from_utf8_lossy(&done.stderr).into_owned();
+    assert!(
+        done.status.code() == Some(2) && error.contains("narrower"),
+        "{done:?}"
+    );
 }
 
 #[test]

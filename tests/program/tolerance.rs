@@ -166,3 +166,42 @@ fn what_a_default_leaves_exact_is_named() {
         "exact, as the default is for distances between points and radii alone: distances:c-l";
     assert!(error.contains(words), "{text}{error}");
 }
+
+/// Limits with a number count before a default; two for one dimension are refused.
+#[test]
+fn limits_stand_with_a_number() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("t.toml");
+    let file = file.to_str().unwrap();
+    let text = "name = \"t\"\ndimension = 2\n[points]\na = [0, 0]\nb = [4, 0]\nc = [0, 3]\n[constraints]\n\
+                distances = [[\"a\", \"b\", [3.9, 4.1]], [\"a\", \"c\", 3]]\nangles = [[\"b\", \"a\", \"c\", \"90 +0 -1\"]]\n\
+                [tolerances]\ndefault = 0.01\n";
+    fs::write(file, text).unwrap();
+    let (code, shown, error) = krawl(&["tolerance", file, "--measure", "b-c"]);
+    assert_eq!(code, Some(0), "{error}");
+    for part in [
+        "a-b           from 3.9 to 4.1",
+        "a-c           from 2.99 to 3.01",
+        "angles:b-a-c  from 89 to 90",
+    ] {
+        assert!(shown.contains(part), "{shown}");
+    }
+    let (code, shown, _) = krawl(&[
+        "tolerance",
+        file,
+        "--tolerance",
+        "a-b=0.2",
+        "--measure",
+        "b-c",
+    ]);
+    assert!(
+        code == Some(0) && shown.contains("from 3.8 to 4.2"),
+        "{shown}"
+    );
+    fs::write(file, format!("{text}\"b-a\" = 0.1\n")).unwrap();
+    let (code, _, error) = krawl(&["tolerance", file]);
+    assert!(
+        code == Some(2) && error.contains("b-a has a tolerance with its number"),
+        "{error}"
+    );
+}

@@ -379,7 +379,11 @@ fn a_length_that_is_left_out_is_in_no_other_equation() {
         "4",
         "[\"A\",\"C\",5.656854249492381],[\"B\",\"D\",5.66],[\"B\",\"E\",2.2]]\nangles = [[\"D\",\"B\",\"E\",20]]",
     );
-    let found = all(&problem, &options()).unwrap();
+    let options = Options {
+        within_digits: true,
+        ..options()
+    };
+    let found = all(&problem, &options).unwrap();
     assert_eq!((found.status, found.solutions.len()), (Status::Complete, 2));
     for solution in &found.solutions {
         let [b, d, e] = [1, 3, 4].map(|p| solution.points[p].map(|x| x.mid()));
@@ -393,6 +397,6 @@ fn a_length_that_is_left_out_is_in_no_other_equation() {
         "3.99",
         "[\"A\",\"C\",5.642712114714],[\"B\",\"D\",5.6],[\"A\",\"E\",1.74]]\nratios = [[\"B\",\"D\",\"B\",\"E\",2.5]]",
     );
-    let found = all(&problem, &options()).unwrap();
+    let found = all(&problem, &options).unwrap();
     assert_eq!(found.solutions.len(), 2, "{:?}", found.status);
 }

@@ -274,7 +274,10 @@ fn of_all(problem: &Problem, tolerance: f64) -> Vec<Limits> {
     let named = problem.dimensions().filter_map(|index| {
         let at = index.checked_sub(problem.distances.len())?;
         let kind = problem.constraints[at].kind.as_str();
-        let has_limits = ["x", "y", "z", "dx", "dy", "dz", "angles"].contains(&kind);
+        let has_limits = [
+            "x", "y", "z", "dx", "dy", "dz", "angles", "turns", "torsions",
+        ]
+        .contains(&kind);
         has_limits.then(|| (problem.dimension_name(index), both.clone()))
     });
     limits(problem, &named.collect::<Vec<_>>(), Some(&both)).unwrap()

@@ -18,8 +18,17 @@ use std::str::FromStr;
 pub struct Decimal {
     text: String,
     value: Rational,
+    /// What else was said of it, if anything was.
+    said: Option<Box<Said>>,
+}
+
+/// What is said of few numbers.
+#[derive(Debug, Clone, Default)]
+struct Said {
     /// What it was computed by, if it was.
     expression: Option<Box<str>>,
+    /// How far down and up it may be, if that was written with it.
+    tolerance: Option<[Decimal; 2]>,
 }
 
 /// Why a text is not a decimal that krawl takes.
@@ -54,16 +63,38 @@ impl Decimal {
 
     /// The expression of parameters that it was computed by, if it was.
     pub fn expression(&self) -> Option<&str> {
-        self.expression.as_deref()
+        self.said.as_ref()?.expression.as_deref()
     }
 
     /// The same number as that of an expression.
     #[doc(hidden)]
-    pub fn computed_by(self, expression: &str) -> Self {
-        Decimal {
-            expression: Some(expression.into()),
-            ..self
+    pub fn computed_by(mut self, expression: &str) -> Self {
+        self.said.get_or_insert_default().expression = Some(expression.into());
+        self
+    }
+
+    /// How far down (a number that is mostly less than 0) and up it may be, if that was said with it, as in `4.2 ± 0.05`.
+    pub fn tolerance(&self) -> Option<&[Decimal; 2]> {
+        self.said.as_ref()?.tolerance.as_ref()
+    }
+
+    /// The same number, with a tolerance or without.
+    pub fn with_tolerance(mut self, tolerance: Option<&[Decimal; 2]>) -> Self {
+        if tolerance.is_some() || self.said.is_some() {
+            self.said.get_or_insert_default().tolerance = tolerance.cloned();
         }
+        self
+    }
+
+    /// The least and the greatest number that its own tolerance allows.
+    pub fn limits(&self) -> Option<[Decimal; 2]> {
+        // What is out of range was refused as it was read.
+        self.within(self.tolerance()?).ok()
+    }
+
+    /// The least and the greatest number that a tolerance allows. An error: one is out of the range of numbers.
+    pub fn within(&self, [down, up]: &[Decimal; 2]) -> Result<[Decimal; 2], DecimalError> {
+        Ok([self.plus(down)?, self.plus(up)?])
     }
 
     /// The exact value.
@@ -127,7 +158,7 @@ impl Decimal {
         Decimal {
             value: -self.value.clone(),
             text,
-            expression: None,
+            said: None,
         }
     }
 }
@@ -199,7 +230,7 @@ impl FromStr for Decimal {
         Ok(Decimal {
             text,
             value,
-            expression: None,
+            said: None,
         })
     }
 }
@@ -221,7 +252,7 @@ impl From<i32> for Decimal {
         Decimal {
             text: value.to_string(),
             value: Rational::from(BigInt::from(value)),
-            expression: None,
+            said: None,
         }
     }
 }

@@ -289,7 +289,7 @@ impl<W: Write> Witness for Writer<'_, W> {
         self.result = write_header(
             &mut self.out,
             PROGRAM,
-            &self.problem.unsigned().to_toml(),
+            &self.problem.unsigned().without_limits().to_toml(),
             exponent,
         );
     }

@@ -68,7 +68,7 @@ impl Plan {
     pub fn cover(&self, problem: &Problem, unit: f64, figures: &[Figure]) -> Cover {
         let steps = self.steps.iter();
         Cover {
-            problem: problem.to_toml(),
+            problem: problem.without_limits().to_toml(),
             base: self.base.clone(),
             steps: steps.map(|step| (step.point, step.kind.clone())).collect(),
             drives: self.drives.clone(),

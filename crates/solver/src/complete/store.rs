@@ -87,7 +87,7 @@ impl Head {
     /// Of a search, cut into pieces with this digest.
     pub(super) fn new(problem: &Problem, plan: Option<&Plan>, cover: bool, pieces: String) -> Head {
         Head {
-            problem: problem.to_toml(),
+            problem: problem.without_limits().to_toml(),
             plan: plan.cloned(),
             cover,
             pieces,
@@ -95,7 +95,7 @@ impl Head {
     }
 
     fn is_of(&self, problem: &Problem, cover: bool) -> Result<(), &'static str> {
-        if self.problem != problem.to_toml() {
+        if self.problem != problem.without_limits().to_toml() {
             Err(
                 "it is about another problem, or the problem file was changed since; name another folder",
             )

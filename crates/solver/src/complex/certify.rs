@@ -23,7 +23,7 @@ pub fn to_certificate(
             .as_ref()
             .filter(|_| lowered.system.is_absolute);
         return Some(ComplexSet {
-            problem: problem.unsigned().to_toml(),
+            problem: problem.unsigned().without_limits().to_toml(),
             fixed: Vec::new(),
             solutions: Vec::new(),
             unknowns: super::unknowns::of(problem, &lowered.system, &solutions.boxes)?,
@@ -45,7 +45,7 @@ pub fn to_certificate(
     };
     let departures = solutions.departures.iter();
     Some(ComplexSet {
-        problem: problem.unsigned().to_toml(),
+        problem: problem.unsigned().without_limits().to_toml(),
         fixed: names(problem, fixed),
         solutions: solutions.boxes.boxes().iter().map(figure).collect(),
         unknowns: Vec::new(),

@@ -119,14 +119,13 @@ impl Setting {
     /// # Panics
     /// If the problem has no such dimension.
     pub fn new(problem: &Problem, index: usize, value: Decimal) -> Result<Self, SettingError> {
-        let whole = |degrees: i32| Rational::from_integer(degrees.into());
-        let (is_positive, number) = (value.is_positive(), value.value());
-        let wrong = match measure_of(problem, index) {
-            Measure::Length if !is_positive => SettingError::NotPositive,
-            Measure::Ratio if !is_positive => SettingError::NotARatio,
-            Measure::Degrees if !is_positive || *number >= whole(180) => SettingError::NotAnAngle,
-            Measure::Slope if !is_positive || *number > whole(90) => SettingError::NotASlope,
-            _ => return Ok(Setting::to(index, value)),
+        let measure = measure_of(problem, index);
+        let wrong = match measure {
+            _ if measure.allows(&value) => return Ok(Setting::to(index, value)),
+            Measure::Ratio => SettingError::NotARatio,
+            Measure::Degrees => SettingError::NotAnAngle,
+            Measure::Slope => SettingError::NotASlope,
+            _ => SettingError::NotPositive,
         };
         Err(wrong(problem.dimension_name(index), value.to_string()))
     }
@@ -195,8 +194,21 @@ impl Setting {
             self.index.checked_sub(problem.distances.len()),
             &self.target,
         ) {
-            (None, target) => problem.distances[self.index].target = target.clone(),
-            (Some(c), Target::Length(value)) => problem.constraints[c].value = Some(value.clone()),
+            (None, target) => {
+                let own = &mut problem.distances[self.index].target;
+                let target = match (&*own, target) {
+                    (Target::Length(own), Target::Length(value)) => {
+                        Target::Length(value.clone().with_tolerance(own.tolerance()))
+                    }
+                    (_, target) => target.clone(),
+                };
+                *own = target;
+            }
+            (Some(c), Target::Length(value)) => {
+                let own = &mut problem.constraints[c].value;
+                let tolerance = own.as_ref().and_then(Decimal::tolerance).cloned();
+                *own = Some(value.clone().with_tolerance(tolerance.as_ref()));
+            }
             (Some(_), Target::SquaredLength(_)) => {
                 unreachable!("only distances are given by their squares")
             }

@@ -1,10 +1,12 @@
 //! The edited figure in the user's own file: only the numbers change.
 
+use super::setting::measure_of;
 use crate::constraint::{Arguments, LineName, is_opposite_nearer};
 use crate::interval::{Interval, Real};
 use crate::order::InOrder;
 use crate::places::Each as _;
-use crate::problem::{Constraint, Decimal, Problem, Target, toml_number};
+use crate::problem::{Constraint, Decimal, Problem, Target};
+use crate::problem::{said_with_limits, toml_number, toml_with_limits};
 use crate::rational::Rational;
 use crate::system::Located;
 use num_bigint::BigInt;
@@ -22,6 +24,9 @@ pub enum WriteError {
     /// A square with more digits than are read.
     #[error("{0} is given by its square, and that of the new length has too many digits")]
     LongSquare(String),
+    /// A number as far from the new one as the file's tolerance allows cannot be.
+    #[error("{0}: within its tolerance it may be {1}, which it cannot be: give it a narrower one")]
+    Limits(String, String),
     /// Under `angles` there are none of 0 and 180 degrees.
     #[error(
         "{0}: legs on one line are no angle that a file has under `angles`: write it under `turns`"
@@ -181,7 +186,11 @@ pub fn rewrite(
             .ok_or_else(|| other(key))?;
         let before = said(text, number);
         if before.as_ref() != Some(wanted) {
-            put(number, toml_number(wanted))?;
+            let head = problem.distances.len();
+            put(
+                number,
+                in_place_of(number, before.as_ref(), wanted, (problem, head + index))?,
+            )?;
             if let Some((which, ends)) =
                 before.and_then(|b| turned_round(problem, constraint, (&b, wanted)))
             {
@@ -217,8 +226,12 @@ pub fn rewrite(
             }
             (Target::SquaredLength(_), false) => return Err(other(&name())),
         };
-        if said(text, number).as_ref() != Some(&wanted) {
-            put(number, toml_number(&wanted))?;
+        let before = said(text, number);
+        if before.as_ref() != Some(&wanted) {
+            put(
+                number,
+                in_place_of(number, before.as_ref(), &wanted, (problem, index))?,
+            )?;
         }
     }
 
@@ -303,8 +316,31 @@ pub(super) fn direction(problem: &Problem, line: LineName) -> Option<[Rational; 
     }
 }
 
+/// A number as it is put in place of one, with the tolerance that was written with that; of a dimension of a problem.
+fn in_place_of(
+    value: &Value,
+    before: Option<&Decimal>,
+    wanted: &Decimal,
+    (problem, index): (&Problem, usize),
+) -> Result<String, WriteError> {
+    let wanted = wanted.clone();
+    let wanted = wanted.with_tolerance(before.and_then(Decimal::tolerance));
+    let measure = measure_of(problem, index);
+    let mut ends = wanted.limits().into_iter().flatten();
+    match ends.find(|end| !measure.allows(end)) {
+        None => Ok(toml_with_limits(&wanted, value.is_array())),
+        Some(end) => Err(WriteError::Limits(
+            problem.dimension_name(index),
+            end.to_string(),
+        )),
+    }
+}
+
 /// The number that stands in the text.
 fn said(text: &str, number: &Value) -> Option<Decimal> {
+    if number.is_array() || number.is_str() {
+        return said_with_limits(number, text);
+    }
     let text = number.span().and_then(|span| text.get(span))?;
     text.replace('_', "").parse().ok()
 }

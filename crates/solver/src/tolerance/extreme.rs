@@ -4,7 +4,7 @@
 //! is left of the part is one figure, or it is cut in a dimension of which that is not certain; parts that cannot have more than is reached
 //! already are left out.
 
-use super::family::Family;
+use super::family::{Family, sum};
 use super::parts::{Piece, Proved, is_in};
 use super::slopes;
 use crate::edit::{Limited, Part};
@@ -92,7 +92,7 @@ impl Proved {
         /// Where all dimensions of which it is not certain which way it goes may do so many times as much together as one, none is cut.
         const MANY: f64 = 8.0;
         /// So many parts are looked at.
-        const MOST: usize = 60;
+        const MOST: usize = 400;
         let sign = if greatest { 1.0 } else { -1.0 };
         let upper = |key: Interval| match if greatest { key.sup() } else { -key.inf() } {
             // Nothing is known then.
@@ -205,13 +205,18 @@ impl Limited {
             unsure: None,
             slack: 0.0,
         };
+        let speeds = of.family.speeds(slopes);
         for (k, ends) in of.part.iter().enumerate() {
             if ends[0].decimal.value() == ends[1].decimal.value() {
                 continue;
             }
             let grown = self.growth(k, &of.part).into_iter();
-            let changes = grown.map(|(e, grown)| point(sign) * grown * of.family.speed(e, slopes));
-            let changes: Vec<Interval> = changes.collect();
+            let changes = grown.map(|(e, grown)| point(sign) * grown * speeds[e]);
+            let mut changes: Vec<Interval> = changes.collect();
+            if self.is_turn(k) {
+                // Its derivative: cosine and sine go together.
+                changes = vec![sum(changes.into_iter())];
+            }
             let about: f64 = changes.iter().map(|x| x.mid()).sum();
             let end = usize::from(about > 0.0);
             ways.corner[k] = [ends[end].clone(), ends[end].clone()];
@@ -224,6 +229,7 @@ impl Limited {
             // What the other way gives.
             for x in &changes {
                 let more = if end == 1 { -x.inf() } else { x.sup() };
+                let more = if more.is_nan() { f64::INFINITY } else { more };
                 ways.slack = (ways.slack + more.max(0.0)).next_up();
             }
             let size = changes.iter().map(|x| x.mag()).sum();
@@ -243,7 +249,7 @@ impl Limited {
             .map(|[low, _]| [low.clone(), low.clone()])
             .collect();
         let (figure, rights) = self.figure_with(&corner, family)?;
-        found.has(&figure, &rights).then_some(found)
+        found.has(&figure, &rights).then(|| found.part_of(family))
     }
 }
 

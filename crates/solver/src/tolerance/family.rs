@@ -16,6 +16,7 @@ use crate::interval::{Interval, around, hull, point};
 use crate::linalg::dot;
 use crate::system::Homotopy;
 use std::cell::OnceCell;
+use std::rc::Rc;
 
 /// The test is tried with so many boxes, each made after what the one before came to.
 const ROUNDS: usize = 40;
@@ -67,8 +68,8 @@ pub(super) struct Family {
     weights: Vec<f64>,
     /// See `weights`: less than 1.
     contraction: f64,
-    /// What is asked for seldom: [`Family::more`].
-    more: OnceCell<Vec<f64>>,
+    /// See [`Family::movers`]: asked for seldom.
+    movers: OnceCell<Rc<Vec<Vec<u64>>>>,
 }
 
 /// A middle and about the inverse of the Jacobian there.
@@ -179,7 +180,7 @@ impl Family {
             around: Vec::new(),
             weights: Vec::new(),
             contraction: 1.0,
-            more: OnceCell::new(),
+            movers: OnceCell::new(),
             differences,
         };
         // While the norm is sought, figures may be wherever there may be one only.
@@ -274,6 +275,8 @@ impl Family {
     fn contracts(&mut self) -> bool {
         /// Less than this is sought for a while.
         const ENOUGH: f64 = 0.5;
+        /// Or until the next one is no less than this part of the one before.
+        const SETTLED: f64 = 0.97;
         let sizes: Vec<f64> = self.around.iter().map(|x| x.mag()).collect();
         // What hardly moves is not weighed as if nothing about it could be wrong.
         let least = 1e-3 * sizes.iter().copied().fold(f64::EPSILON, f64::max);
@@ -284,8 +287,13 @@ impl Family {
             let norm = greatest_part(&image, &weights);
             let next = first.iter().zip(&image).map(|(a, b)| a + b).collect();
             let tried = std::mem::replace(&mut weights, next);
-            if norm < self.contraction {
+            let before = self.contraction;
+            if norm < before {
                 (self.weights, self.contraction) = (tried, norm);
+            }
+            // It does, and will not do much better.
+            if before < 1.0 && norm > SETTLED * before {
+                break;
             }
             let is_far = weights.iter().any(|s| s.is_nan() || *s > FAR);
             if norm < ENOUGH || norm.is_nan() || is_far {
@@ -307,83 +315,87 @@ impl Family {
         self.bounds(&turned.collect::<Vec<_>>(), &v[..self.middle.centre.len()])
     }
 
-    /// How fast something changes with the right-hand side of an equation, over all figures, of which these are the derivatives by the unknowns.
-    pub fn speed(&self, e: usize, slopes: &[(usize, Interval)]) -> Interval {
+    /// How fast something changes with each right-hand side, over all figures, of which these are the derivatives by the unknowns.
+    ///
+    /// The differences' speeds with a right-hand side are v = Y e + (I − Y J) v. What changes at rates z with the differences does so at z v =
+    /// z Y e + z (I − Y J) v, and z (I − Y J) are rates again. So it goes on, with each place between the middle and a figure in ranges, and what
+    /// is left is bounded in the norm, where v is no more than Y e divided by 1 − `contraction`.
+    pub fn speeds(&self, slopes: &[(usize, Interval)]) -> Vec<Interval> {
+        /// Rates so small a part of those at first are bounded in the norm.
+        const SMALL: f64 = 1e-9;
         let m = self.middle.centre.len();
-        let more = self.more.get_or_init(|| self.more());
-        let speed = |i: usize| around(self.middle.inverse[i * m + e], more[i * m + e]);
-        sum(slopes.iter().map(|&(i, slope)| slope * speed(i)))
+        let mut speeds = vec![point(0.0); m];
+        let mut rates = vec![point(0.0); self.differences.len()];
+        slopes.iter().for_each(|&(i, slope)| rates[i] += slope);
+        let size = |rates: &[Interval]| {
+            let all = rates.iter().zip(&self.weights);
+            round_up(all.map(|(z, s)| z.mag() * s).sum(), 2 * rates.len() + 5)
+        };
+        let first = size(&rates);
+        let mut left = first;
+        for _ in 0..TIMES {
+            if !left.is_finite() || left <= SMALL * first {
+                break;
+            }
+            let mut of_unknowns = vec![point(0.0); m];
+            for (ends, &rate) in self.differences.iter().zip(&rates) {
+                let [a, b] = *ends;
+                a.into_iter().for_each(|i| of_unknowns[i] += rate);
+                b.into_iter().for_each(|i| of_unknowns[i] -= rate);
+            }
+            let mut weights = vec![point(0.0); m];
+            let mut from_middle = vec![0.0; m];
+            let rows = self.middle.inverse.chunks(m.max(1));
+            for ((row, defect), &rate) in rows.zip(self.defect.chunks(m.max(1))).zip(&of_unknowns) {
+                if rate == point(0.0) {
+                    continue;
+                }
+                let row = weights.iter_mut().zip(row).filter(|(_, y)| **y != 0.0);
+                row.for_each(|(sum, &y)| *sum += rate * point(y));
+                let row = from_middle.iter_mut().zip(defect);
+                row.for_each(|(sum, x)| *sum += rate.mag() * x);
+            }
+            rates.fill(point(0.0));
+            for (rate, &x) in rates.iter_mut().zip(&from_middle) {
+                *rate = around(0.0, round_up(x, m + 5));
+            }
+            for (terms, &weight) in self.terms.iter().zip(&weights) {
+                for &(factor, a, b) in terms {
+                    rates[b] -= weight * factor * self.around[a];
+                    rates[a] -= weight * factor * self.around[b];
+                }
+            }
+            speeds
+                .iter_mut()
+                .zip(weights)
+                .for_each(|(all, x)| *all += x);
+            left = size(&rates);
+        }
+        let movers = self.movers.get_or_init(|| Rc::new(self.movers()));
+        let rest = point(1.0) - point(self.contraction);
+        for (e, speed) in speeds.iter_mut().enumerate() {
+            let moves = |i: usize| movers[i][e / 64] >> (e % 64) & 1 == 1;
+            if !slopes.iter().any(|&(i, _)| moves(i)) {
+                *speed = point(0.0);
+                continue;
+            }
+            let column = self.sizes.iter().skip(e).step_by(m);
+            let norm = greatest_part(column, &self.weights);
+            *speed = match left.is_finite() {
+                true => *speed + around(0.0, (point(left) * point(norm) / rest).sup()),
+                false => Interval::ENTIRE,
+            };
+        }
+        speeds
     }
 
-    /// By how much how fast each unknown changes with each right-hand side may differ from Y, row by row: the speeds with a right-hand side are v =
-    /// Y e + (I − Y J) v, and what bounds them in the norm is put in on the right, again and again.
-    ///
-    /// All numbers are at least 0, so that sums of n products that are rounded are wrong by a part of n ε at most (Higham, Accuracy and Stability
-    /// of Numerical Algorithms, 2002, section 3.1, where it is half of that).
-    fn more(&self) -> Vec<f64> {
-        let m = self.middle.centre.len();
-        let all = self.differences.len();
-        let (applied, defect) = (&self.sizes, &self.defect);
-        let sizes: Vec<f64> = self.around.iter().map(|x| x.mag()).collect();
-        let terms = self.terms.iter().map(Vec::len).max().unwrap_or(0);
-        let up = 1.0 + (4 * m + 4 * terms + 20) as f64 * f64::EPSILON;
-        let movers = self.movers();
-        // Of each difference with each right-hand side.
-        let mut bounds = vec![0.0; all * m];
-        for e in 0..m {
-            let column: Vec<f64> = applied.iter().skip(e).step_by(m).copied().collect();
-            let norm = greatest_part(&column, &self.weights);
-            let norm = point(norm) / (point(1.0) - point(self.contraction));
-            for (k, movers) in movers.iter().enumerate() {
-                if movers[e / 64] >> (e % 64) & 1 == 1 {
-                    bounds[k * m + e] = (norm * point(self.weights[k])).sup();
-                }
-            }
+    /// The same figures, or some of those of another family, whose right-hand sides move no more than they do there.
+    pub fn part_of(self, other: &Family) -> Self {
+        let movers = other.movers.get_or_init(|| Rc::new(other.movers()));
+        Family {
+            movers: OnceCell::from(movers.clone()),
+            ..self
         }
-        let add = |sum: &mut [f64], factor: f64, row: &[f64]| {
-            if factor != 0.0 {
-                sum.iter_mut()
-                    .zip(row)
-                    .for_each(|(sum, x)| *sum += factor * x);
-            }
-        };
-        // Products below all normal numbers may be rounded to 0: fewer than 2⁵² are added up, each off by less than 2⁻¹⁰⁷⁴. More than that, so that
-        // products of what is added stay normal, which are faster.
-        let above_underflow = |sum: &mut [f64]| sum.iter_mut().for_each(|x| *x += 1e-250);
-        let mut image = vec![0.0; all * m];
-        for _ in 0..TIMES {
-            let mut turned = vec![0.0; m * m];
-            for (terms, sum) in self.terms.iter().zip(turned.chunks_mut(m)) {
-                for &(factor, a, b) in terms {
-                    let [of_a, of_b] = [a, b].map(|k| &bounds[k * m..(k + 1) * m]);
-                    add(sum, factor.mag() * sizes[a], of_b);
-                    add(sum, factor.mag() * sizes[b], of_a);
-                }
-                above_underflow(sum);
-            }
-            let mut from_middle = vec![0.0; m * m];
-            for (row, sum) in defect.chunks(m).zip(from_middle.chunks_mut(m)) {
-                let rows = row.iter().zip(bounds.chunks(m));
-                rows.for_each(|(&factor, of)| add(sum, factor, of));
-                above_underflow(sum);
-            }
-            image.fill(0.0);
-            let rows = self.differences.iter().zip(applied.chunks(m));
-            for ((ends, row), sum) in rows.zip(image.chunks_mut(m)) {
-                let rows = row.iter().zip(turned.chunks(m));
-                rows.for_each(|(&factor, of)| add(sum, factor, of));
-                for &i in ends.iter().flatten() {
-                    add(sum, 1.0, &from_middle[i * m..(i + 1) * m]);
-                }
-                sum.iter_mut().for_each(|x| *x *= up);
-                above_underflow(sum);
-            }
-            for ((bound, x), own) in bounds.iter_mut().zip(&image).zip(applied) {
-                *bound = bound.min((own + x) * up);
-            }
-        }
-        image.truncate(m * m);
-        image
     }
 
     /// For each difference which right-hand sides can change it, a bit for each: those from which Y and I − Y J lead to it.
@@ -477,7 +489,7 @@ impl Family {
         rests.all(|(rest, set)| rest.subset(*set))
     }
 
-    /// How many products of numbers it takes to find all [`Family::speed`]s, about.
+    /// How many products of numbers it takes to find such a family, about.
     pub fn work(&self) -> usize {
         3 * self.applied.len() * self.middle.centre.len()
     }
@@ -535,9 +547,9 @@ fn terms(homotopy: &Homotopy, e: usize, differences: &mut Vec<Difference>) -> Ve
 }
 
 /// The greatest of what each is of a weight, rounded up.
-fn greatest_part(all: &[f64], weights: &[f64]) -> f64 {
-    let parts = all.iter().zip(weights);
-    let parts = parts.map(|(&x, &weight)| (point(x) / point(weight)).sup());
+fn greatest_part<'f>(all: impl IntoIterator<Item = &'f f64>, weights: &[f64]) -> f64 {
+    let parts = all.into_iter().zip(weights);
+    let parts = parts.map(|(&x, &weight)| (x / weight).next_up());
     parts.fold(0.0, |greatest, part| {
         if greatest.is_nan() || part <= greatest {
             greatest
@@ -556,6 +568,7 @@ fn sums(a: &[Interval], b: &[Interval]) -> Vec<Interval> {
     a.iter().zip(b).map(|(a, b)| *a + *b).collect()
 }
 
-fn sum(terms: impl Iterator<Item = Interval>) -> Interval {
+/// A sum.
+pub(super) fn sum(terms: impl Iterator<Item = Interval>) -> Interval {
     terms.fold(point(0.0), |sum, x| sum + x)
 }

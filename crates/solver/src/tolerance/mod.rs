@@ -43,7 +43,8 @@ use crate::interval::along::Along;
 use crate::interval::{Interval, certain_digits, enclose_rational, hull, point};
 use crate::motion::{in_place, lengths};
 use crate::order::{InOrder, add_new};
-use crate::problem::{Decimal, Problem, Target};
+use crate::problem::{Decimal, DecimalError, Item, Problem, Shape, Target};
+use crate::rational::Rational;
 use crate::system::{Homotopy, Quantity, WHOLE_TURN};
 use crate::track::{Control, Options};
 use extreme::{Extreme, Measure};
@@ -110,16 +111,20 @@ impl Measured {
     }
 }
 
-/// So many lengths that no distance gives are measured where nothing is asked for.
+/// So many lengths that no distance gives are measured where nothing is asked for, and there are no coordinates.
 const DEFAULT: usize = 12;
 
 const INTERRUPTED: &str = "the run was ended before";
+
+/// Limits of a turn are less far apart, in degrees.
+const WIDEST: i32 = 180;
 
 /// So many products of numbers, about, are made to bound all that is measured from below, and so many from above, at most: half a second.
 const WORK: usize = 200_000_000;
 
 /// What dimensions within limits do to the figure of a problem's sketch; `asked` is what to measure, as `A-B` and `angle A B C`; if
-/// nothing, the longest lengths that no distance gives.
+/// nothing, the coordinates of ends of lines and arcs where constraints say where the figure is, and else the longest lengths that no distance
+/// gives.
 ///
 /// # Errors
 /// In words: what is wrong with the limits, that the figure cannot be led to its dimensions, or that it is not proved that there is one figure
@@ -176,7 +181,7 @@ fn end(
     let cut = cut.filter_map(|(k, ((one, part), all))| {
         let [low, high] = part.each_ref().map(number);
         let is_cut = low > number(&all[0]) || high < number(&all[1]);
-        let given = given(problem, one.index)?.to_f64();
+        let given = Setting::now(problem, one.index).target.to_f64();
         let end = usize::from(0.5 * (low + high) > given);
         is_cut.then(|| (k, all[end].clone()))
     });
@@ -206,7 +211,7 @@ fn end(
     })
 }
 
-/// What is to be measured, by default the longest lengths that no distance gives; and whether limits make sense.
+/// What is to be measured; and whether limits make sense.
 fn checked(
     problem: &Problem,
     limits: &[Limits],
@@ -215,6 +220,9 @@ fn checked(
     let quantities = asked.iter().map(|text| Quantity::parse(problem, text));
     let mut quantities = quantities.collect::<Result<Vec<_>, _>>()?;
     if asked.is_empty() {
+        quantities = coordinates(problem);
+    }
+    if quantities.is_empty() {
         let lengths = lengths(problem, &[]).into_iter().take(DEFAULT);
         quantities.extend(lengths.map(|ends| Quantity::length(problem, ends)));
     }
@@ -235,6 +243,37 @@ fn checked(
         ));
     }
     Ok(quantities)
+}
+
+/// The coordinates of the ends of lines and arcs, where constraints say where the figure is, but of points that stay where they are.
+fn coordinates(problem: &Problem) -> Vec<Quantity> {
+    let stays = |point: usize| {
+        let mut constraints = problem.constraints.iter();
+        constraints.any(|c| c.kind == "fixed" && c.items.contains(&Item::Point(point)))
+    };
+    let mut ends = Vec::new();
+    let edges = problem
+        .objects
+        .iter()
+        .flat_map(|object| match object.shape {
+            Shape::Line(ends) => ends.to_vec(),
+            Shape::Arc { start, end, .. } => vec![start, end],
+            _ => Vec::new(),
+        });
+    edges
+        .filter(|&p| problem.is_absolute() && !stays(p))
+        .for_each(|p| {
+            add_new(&mut ends, p);
+        });
+    let axes = ["x", "y", "z"].into_iter().take(problem.dimension);
+    let named = ends.iter().flat_map(|&p| {
+        let axes = axes.clone();
+        axes.map(move |axis| format!("{axis} {}", problem.points[p].name))
+    });
+    // A name that is read as something else is none of a coordinate.
+    named
+        .filter_map(|text| Quantity::parse(problem, &text).ok())
+        .collect()
 }
 
 /// What is measured of a figure for every choice of its dimensions.
@@ -272,47 +311,62 @@ fn studied(
 }
 
 /// The limits that a file gives, and those of `named`, which count before them; `default`: so far from what they are down and up are the other
-/// distances between points and radii, in place of what the file has for them.
+/// distances between points and radii, in place of what the file has for them. Of a length given by its square they are those of the length.
 ///
 /// # Errors
-/// In words: a name that none has, a dimension that can have no limits.
+/// In words: a name that none has, a dimension whose limits the file gives twice.
 pub fn limits(
     problem: &Problem,
     named: &[(String, [Decimal; 2])],
     default: Option<&[Decimal; 2]>,
 ) -> Result<Vec<Limits>, String> {
     let mut out: Vec<Limits> = Vec::new();
-    let mut take = |index: usize, [down, up]: &[Decimal; 2]| -> Result<(), String> {
-        if out.iter().any(|other| other.index == index) {
-            return Ok(());
-        }
-        let Some(given) = given(problem, index) else {
-            let name = problem.dimension_name(index);
-            return Err(format!(
-                "{name} is given as a square, which has no limits yet: give the length"
-            ));
+    let mut take = |index: usize, by: Option<&[Decimal; 2]>| -> Result<(), String> {
+        let given = Setting::now(problem, index).target;
+        let (Target::Length(number) | Target::SquaredLength(number)) = &given;
+        let own = [number, number].map(Decimal::clone);
+        let ends = match by {
+            _ if out.iter().any(|other| other.index == index) => None,
+            Some(by) => Some((own, by.clone())),
+            None => number
+                .limits()
+                .map(|ends| (ends, [0, 0].map(Decimal::from))),
         };
-        let sum = |by: &Decimal| given.plus(by).map_err(|error| error.to_string());
-        let values = [sum(down)?, sum(up)?];
-        out.push(Limits { index, values });
+        if let Some((ends, by)) = ends {
+            let ends = match given {
+                Target::Length(_) => Ok(ends),
+                Target::SquaredLength(_) => roots(&ends),
+            };
+            let values = ends.and_then(|[low, high]| Ok([low.plus(&by[0])?, high.plus(&by[1])?]));
+            let values = values.map_err(|error| error.to_string())?;
+            out.push(Limits { index, values });
+        }
         Ok(())
     };
-    let all = named.iter().chain(&problem.tolerances.named);
-    for (name, deviations) in all {
-        let index = Setting::find(problem, name);
-        take(
-            index.map_err(|error| format!("tolerance: {error}"))?,
-            deviations,
-        )?;
+    let find =
+        |name: &String| Setting::find(problem, name).map_err(|error| format!("tolerance: {error}"));
+    for (name, by) in named {
+        take(find(name)?, Some(by))?;
     }
+    for (name, by) in &problem.tolerances.named {
+        let index = find(name)?;
+        let (Target::Length(number) | Target::SquaredLength(number)) =
+            Setting::now(problem, index).target;
+        if number.tolerance().is_some() {
+            return Err(format!(
+                "{name} has a tolerance with its number, and another one under [tolerances]: leave out one of them"
+            ));
+        }
+        take(index, Some(by))?;
+    }
+    problem
+        .dimensions()
+        .try_for_each(|index| take(index, None))?;
     if let Some(default) = default.or(problem.tolerances.default.as_ref()) {
         for index in problem.dimensions() {
-            let is_length = match index.checked_sub(problem.distances.len()) {
-                None => given(problem, index).is_some(),
-                Some(at) => problem.constraints[at].kind == "radii",
-            };
-            if is_length {
-                take(index, default)?;
+            let constraint = index.checked_sub(problem.distances.len());
+            if constraint.is_none_or(|at| problem.constraints[at].kind == "radii") {
+                take(index, Some(default))?;
             }
         }
     }
@@ -320,8 +374,16 @@ pub fn limits(
     Ok(out)
 }
 
-/// Whether limits make sense: the right-hand side of one equation grows with the value, or falls. It is a length, coordinate, number or ratio, its square, or
-/// the cosine or sine of an angle.
+/// Decimals below and above the roots of two numbers, near them.
+fn roots([low, high]: &[Decimal; 2]) -> Result<[Decimal; 2], DecimalError> {
+    let root = |x: &Decimal| enclose_rational(x.value()).sqrt();
+    // The shortest decimal that reads as a float is less than the next one.
+    let below = root(low).inf().next_down().next_down();
+    let above = root(high).sup().next_up().next_up();
+    Ok([Decimal::try_from(below)?, Decimal::try_from(above)?])
+}
+
+/// Whether limits make sense.
 fn check(problem: &Problem, limits: &Limits) -> Result<(), String> {
     let name = problem.dimension_name(limits.index);
     let [low, high] = &limits.values;
@@ -330,16 +392,26 @@ fn check(problem: &Problem, limits: &Limits) -> Result<(), String> {
             "{name}: its least value, {low}, is more than its greatest, {high}"
         ));
     }
+    if let Target::SquaredLength(square) = Setting::now(problem, limits.index).target
+        && !(low.value().pow(2) <= *square.value() && *square.value() <= high.value().pow(2))
+    {
+        return Err(format!(
+            "{name} is given by its square, and has to be between its limits, {low} and {high}: give the length"
+        ));
+    }
     let most = match measure_of(problem, limits.index) {
         Kind::Signed => return Ok(()),
+        Kind::Turn if (high.value() - low.value()) < Rational::from_integer(WIDEST.into()) => {
+            return Ok(());
+        }
+        Kind::Turn | Kind::Nothing => {
+            return Err(format!(
+                "{name}: its limits, {low} and {high}, are {WIDEST} degrees apart or more: give narrower ones"
+            ));
+        }
         Kind::Length | Kind::Ratio => f64::INFINITY,
         Kind::Degrees => 180.0,
         Kind::Slope => 90.0,
-        Kind::Turn | Kind::Nothing => {
-            return Err(format!(
-                "{name}: limits are not taken of turns and torsions yet, of which cosine and sine go together: give it none"
-            ));
-        }
     };
     match low.is_positive() && high.to_f64() < most {
         true => Ok(()),
@@ -363,7 +435,7 @@ pub fn given(problem: &Problem, index: usize) -> Option<Decimal> {
 /// Limits 2ᵏ times as near to what is given.
 fn scaled(problem: &Problem, limits: &[Limits], k: u32) -> Option<Vec<Limits>> {
     let scaled = limits.iter().map(|one| {
-        let nominal = given(problem, one.index)?.to_f64();
+        let nominal = Setting::now(problem, one.index).target.to_f64();
         let near = |x: &Decimal| {
             let near = nominal + (x.to_f64() - nominal) / f64::from(1u32 << k);
             format!("{near:e}").parse().ok()

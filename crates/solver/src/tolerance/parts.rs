@@ -122,7 +122,7 @@ impl Proved {
                 .sum()
         };
         let of = |k: usize| {
-            let grown = self.limited.growth(k, &self.limited.within).into_iter();
+            let grown = self.limited.first_order(k).into_iter();
             grown.map(|(e, x)| weight(e) * x.mid()).sum()
         };
         (0..self.limited.within.len()).map(of).collect()

@@ -4,6 +4,7 @@ use super::arguments::Arguments;
 use super::lowering::{Fault, Lowering};
 use crate::decimal::Decimal;
 use crate::places::array;
+use crate::rational::Rational;
 use crate::statement::{Constraint, Item, Problem};
 
 /// What the number of a constraint is.
@@ -23,6 +24,19 @@ pub enum Measure {
     Turn,
     /// An angle between a line and a plane, at most 90 degrees, of which the sine is led.
     Slope,
+}
+
+impl Measure {
+    /// Whether it can be this number.
+    pub fn allows(self, value: &Decimal) -> bool {
+        let less_than = |most: i32| *value.value() < Rational::from_integer(most.into());
+        match self {
+            Measure::Length | Measure::Ratio => value.is_positive(),
+            Measure::Degrees => value.is_positive() && less_than(180),
+            Measure::Slope => value.is_positive() && (less_than(90) || *value == Decimal::from(90)),
+            _ => true,
+        }
+    }
 }
 
 /// What of the frame a constraint fixes, beyond what is the same for figures that are moved as a whole.

@@ -380,15 +380,12 @@ fn check_value(kind: &Kind, problem: &Problem, index: usize) -> Result<(), Fault
         (None, Some(wanted)) => Err(format!("there is no number at its end: give {wanted}")),
         (Some(value), Some(wanted)) => {
             let number = value.value();
-            let straight = crate::rational::Rational::from_integer(180.into());
-            let in_range = match measure {
-                Measure::Length | Measure::Ratio => value.is_positive(),
-                Measure::Degrees => value.is_positive() && *number < straight,
-                Measure::Slope => value.is_positive() && number.clone() + number <= straight,
-                _ => true,
-            };
-            if in_range {
-                return Ok(());
+            if measure.allows(value) {
+                let mut ends = value.limits().into_iter().flatten();
+                return match ends.find(|end| !measure.allows(end)) {
+                    None => Ok(()),
+                    Some(end) => Err(format!("a limit is {end}, but must be {wanted}")),
+                };
             }
             let items = Arguments::new(problem, &problem.constraints[index].items);
             let hint = match measure {

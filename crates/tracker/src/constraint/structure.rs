@@ -186,7 +186,8 @@ pub fn check_structure(problem: &Problem) -> Result<(), (Blame, String)> {
     let auxiliary = system.lowered.tail.unknowns.len();
     let (to_spare, is_loose) = (equations - found.rows.rank, found.rows.rank < unknowns);
     // Which constraints depend on each other is told from equations that have no number of a distance in them.
-    if found.circuit.is_some() && system.lowered.gives_lengths {
+    let gives_lengths = system.lowered.gives_lengths;
+    if found.circuit.is_some() && gives_lengths {
         system = System::of(problem, try_lower_apart(problem).map_err(at_fault)?);
         found = system.eliminate();
     }
@@ -199,6 +200,8 @@ pub fn check_structure(problem: &Problem) -> Result<(), (Blame, String)> {
         let remove = match whole.as_slice() {
             [] => String::new(),
             whole if whole.len() == names.len() => ", remove one of them".to_owned(),
+            // Of equations in part only it is not certain that all of these are needed for what depends on what.
+            _ if gives_lengths => String::new(),
             [one] => format!(", remove {one}"),
             whole => format!(", remove one of {}", list(whole, LISTED)),
         };

@@ -610,6 +610,12 @@ fn check_distances(points: &[Point], distances: &[Distance]) -> Result<(), Probl
                 "the {kind} {name} is {value}, but must be greater than zero{hint}"
             ));
         }
+        let mut ends = value.limits().into_iter().flatten();
+        if let Some(end) = ends.find(|end| !end.is_positive()) {
+            return wrong(format!(
+                "a limit of the {kind} {name} is {end}, but must be greater than zero"
+            ));
+        }
     }
     Ok(())
 }

@@ -85,7 +85,7 @@ pub fn with_set(
 }
 
 /// The decimal that a ratio is, or the nearest with so many digits.
-fn decimal(value: &Rational) -> Result<Decimal, DecimalError> {
+pub(super) fn decimal(value: &Rational) -> Result<Decimal, DecimalError> {
     let ten = Rational::from_integer(BigInt::from(10));
     // A ratio with an end has only twos and fives in its denominator, and no more of them than this.
     let exact = (0..=60).find(|&places| (value * ten.pow(places)).is_integer());

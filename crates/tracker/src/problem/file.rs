@@ -9,7 +9,6 @@ use super::error::{MAX_NAME, MAX_POINTS, Place};
 use super::expression;
 use super::{Decimal, Problem, ProblemError, Published};
 use crate::constraint::{EQUATIONS, KINDS};
-use crate::statement::Tolerances;
 use std::collections::{HashMap, HashSet};
 use std::fmt;
 use std::io::Read;
@@ -271,7 +270,7 @@ impl<'a> Reader<'a> {
             at.line = line;
             at.refused(error)
         })?;
-        problem.tolerances = self.tolerances()?;
+        problem.tolerances = Problem::tolerances_of(&self.root)?;
         problem.measures = self.measures()?;
         for (c, constraint) in problem.constraints.iter().enumerate() {
             if let ("values", [super::Item::Object(object)]) =
@@ -554,47 +553,5 @@ impl<'a> Reader<'a> {
             Ok((name.to_owned(), what.to_owned()))
         });
         all.collect()
-    }
-
-    fn tolerances(&self) -> Result<Tolerances, FileError> {
-        let mut out = Tolerances::default();
-        let Some(table) = self.root.get("tolerances") else {
-            return Ok(out);
-        };
-        let wanted = "a number, 0.1, or how far down and up, [-0.2, 0.1]";
-        for (name, at) in table.entries()? {
-            let deviation = |of: &At| match of.item.as_str() {
-                Some(text) => {
-                    let text = text.trim();
-                    let number = text.strip_prefix('+').unwrap_or(text).parse();
-                    number.map_err(|_| at.wrong(wanted))
-                }
-                None => of.number(),
-            };
-            let is_pair = at.item.as_array().is_some_and(|both| both.len() == 2);
-            let both = if is_pair {
-                let numbers = at.values().map(|of| deviation(&of));
-                let numbers = numbers.collect::<Result<Vec<Decimal>, _>>()?;
-                let [a, b] = [0, 1].map(|k| numbers[k].clone());
-                if a.value() <= b.value() {
-                    [a, b]
-                } else {
-                    [b, a]
-                }
-            } else if at.is_number() || at.item.is_str() {
-                let number = deviation(&at)?;
-                if number.to_f64() < 0.0 {
-                    return Err(at.wrong(wanted));
-                }
-                [number.negative(), number]
-            } else {
-                return Err(at.wrong(wanted));
-            };
-            match name {
-                "default" => out.default = Some(both),
-                name => out.named.push((name.to_owned(), both)),
-            }
-        }
-        Ok(out)
     }
 }

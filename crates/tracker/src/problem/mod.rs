@@ -15,6 +15,7 @@ pub mod expression;
 mod file;
 mod formula;
 mod joint;
+mod limits;
 mod published;
 mod reference;
 mod vocabulary;
@@ -35,6 +36,8 @@ pub use builder::{Numeral, ProblemBuilder};
 pub use check::{Rigidity, rigidity, rigidity_row};
 pub use error::{MAX_NAME, MAX_POINTS, Place, ProblemError};
 pub use file::{FileError, MAX_FILE_SIZE};
+#[doc(hidden)]
+pub use limits::{said_with_limits, toml_with_limits};
 pub use published::Published;
 #[doc(hidden)]
 pub use write::number as toml_number;

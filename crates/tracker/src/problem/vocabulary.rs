@@ -4,7 +4,7 @@
 use super::builder::ProblemBuilder;
 use super::cursor::{At, TEXT};
 use super::file::{FileError, Reader};
-use super::{AXES, Decimal, expression, joint};
+use super::{AXES, Decimal, expression, joint, limits};
 use crate::constraint::{KINDS, Kind, Measure};
 
 /// The tables of objects.
@@ -72,12 +72,12 @@ impl<'a> Reader<'a> {
             // A number in quotes is no name: it is refused as what it is. And where a file has parameters what stands last is
             // no name, but an expression.
             let is_quoted = |text: &str| {
-                !self.parameters.is_empty()
-                    || text.parse::<Decimal>().is_ok() && !self.objects.contains(text)
+                let is_number = text.parse::<Decimal>().is_ok() || limits::is_meant(text);
+                !self.parameters.is_empty() || is_number && !self.objects.contains(text)
             };
             let number = parts.pop_if(|last| {
                 let is_quoted = !is_alone && last.item.as_str().is_some_and(is_quoted);
-                wants_number && (last.is_number() || is_quoted)
+                wants_number && (last.is_number() || last.item.is_array() || is_quoted)
             });
             let name = format!("a name in quotes, as in {entry}");
             let names = parts.iter().map(|part| part.text(&name));
@@ -116,13 +116,16 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    /// The number of a constraint, which may be an expression where the file has parameters.
+    /// The number of a constraint, which may have limits, or be an expression where the file has parameters.
     fn number_of(&self, number: &At, names: &[&str]) -> Result<Decimal, FileError> {
         let names = names.iter().map(|n| n.chars().take(40).collect());
         let names = names.collect::<Vec<String>>().join("-");
         let number = number.named(format!("{}: {names}", number.key));
+        let has_parameters = !self.parameters.is_empty();
         match number.item.as_str() {
-            Some(text) if !self.parameters.is_empty() => {
+            None if number.item.is_array() => limits::read(&number, has_parameters),
+            Some(text) if limits::is_meant(text) => limits::read(&number, has_parameters),
+            Some(text) if has_parameters => {
                 expression::evaluate(text, &self.parameters).map_err(|why| number.fault(why))
             }
             _ => number.number(),

@@ -37,7 +37,7 @@ impl Problem {
         let line = |distance: &Distance| {
             let [a, b] = distance.points.map(name);
             let (Target::Length(target) | Target::SquaredLength(target)) = &distance.target;
-            format!("[{a}, {b}, {}]", number(target))
+            format!("[{a}, {b}, {}]", with_limits(target))
         };
         let distances = self.distances.iter();
         let lengths: Vec<String> = distances.clone().filter(is_length).map(line).collect();
@@ -92,7 +92,7 @@ impl Problem {
                 let mut parts: Vec<String> = items
                     .map(|&item: &Item| quoted(self.item_name(item)))
                     .collect();
-                parts.extend(constraint.value.as_ref().map(number));
+                parts.extend(constraint.value.as_ref().map(with_limits));
                 format!("[{}]", parts.join(", "))
             })
             .collect()
@@ -203,6 +203,10 @@ fn write_list(out: &mut String, key: &str, entries: Vec<String>) {
 fn all_three(of: &[Decimal; 3]) -> String {
     let numbers: Vec<String> = of.iter().map(number).collect();
     format!("[{}]", numbers.join(", "))
+}
+
+fn with_limits(decimal: &Decimal) -> String {
+    super::toml_with_limits(decimal, false)
 }
 
 fn quoted(text: &str) -> String {

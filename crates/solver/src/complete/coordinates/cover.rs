@@ -69,7 +69,7 @@ pub fn file(
     };
     let mut cover = CoordinateCover {
         unit_exponent: homotopy.unit.log2() as i16,
-        problem: problem.to_toml(),
+        problem: problem.without_limits().to_toml(),
         halves: results.halves,
         blocks: results.blocks.iter().map(block).collect(),
         figures: results.figures,

@@ -194,15 +194,19 @@ fn when(right: &[Real], value: Interval) -> Option<Interval> {
     let is_between = ends[0].sup() <= 0.0 && ends[1].inf() >= 0.0
         || ends[0].inf() >= 0.0 && ends[1].sup() <= 0.0;
     let mut t = is_between.then(|| hull(0.0, 1.0))?;
-    for _ in 0..6 {
+    loop {
         let slope = value_at(&slopes, t);
         if slope.contains(0.0) {
             return None;
         }
         let middle = point(t.mid());
-        t = t.intersection(middle - (value_at(&at, middle) - value) / slope);
+        let next = t.intersection(middle - (value_at(&at, middle) - value) / slope);
+        // As long as it gets narrower by a part that counts.
+        if !(next.wid() < 0.9 * t.wid()) {
+            return Some(next);
+        }
+        t = next;
     }
-    Some(t)
 }
 
 impl Row {
@@ -464,13 +468,33 @@ impl Near<'_> {
         }
     }
 
-    /// Proves that there is an extreme where one is in floats: the figure.
+    /// Proves that there is an extreme where one is in floats: the figure. Which equations it needs is tried: all; those that have a part in it and those
+    /// that say where something is; those that have a part in it.
     fn prove(&self, parts: &Parts, rights: &[Vec<Real>], at: &[f64]) -> Option<Figure> {
         let (multipliers, _) = self.multipliers(at)?;
-        let greatest = multipliers.iter().fold(0.0, |max: f64, x| max.max(x.abs()));
-        let own = self.rows.iter().zip(&multipliers);
-        let own = own.filter(|(_, x)| x.abs() > NONE * greatest.max(1.0));
-        let (own, multipliers): (Vec<usize>, Vec<f64>) = own.map(|(&row, &x)| (row, x)).unzip();
+        let greatest = multipliers.iter().fold(1.0, |max: f64, x| max.max(x.abs()));
+        let all: Vec<(usize, f64)> = self.rows.iter().copied().zip(multipliers).collect();
+        let has_part = |x: f64| x.abs() > NONE * greatest;
+        let is_place = |row: usize| self.system.rows[row].unknowns.len() == 1;
+        let tries: [&dyn Fn(usize, f64) -> bool; 3] = [
+            &|_, _| true,
+            &|row, x| has_part(x) || is_place(row),
+            &|_, x| has_part(x),
+        ];
+        tries.into_iter().find_map(|is_needed| {
+            let own = all.iter().copied().filter(|&(row, x)| is_needed(row, x));
+            self.prove_with(parts, rights, at, own.unzip())
+        })
+    }
+
+    /// The same with some of the rows and their multipliers.
+    fn prove_with(
+        &self,
+        parts: &Parts,
+        rights: &[Vec<Real>],
+        at: &[f64],
+        (own, multipliers): (Vec<usize>, Vec<f64>),
+    ) -> Option<Figure> {
         let with_driven: Vec<usize> = own.iter().copied().chain([self.driven]).collect();
         let of = with_driven
             .iter()
