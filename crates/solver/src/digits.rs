@@ -186,7 +186,7 @@ pub(crate) fn drawn(
     }
     for (object, located) in drawn.objects.iter_mut().zip(objects) {
         match (&mut object.shape, located.number()) {
-            (Shape::Number { sketch }, Some(number)) => *sketch = middle(number),
+            (Shape::Number { sketch, .. }, Some(number)) => *sketch = middle(number),
             (Shape::Round { radius, .. }, Some(number)) => *radius = middle(number),
             // What is told by points.
             (Shape::Line(_) | Shape::Plane(_) | Shape::Arc { .. }, _) => {}

@@ -140,7 +140,19 @@ impl Problem {
                         name(start),
                         name(end)
                     ),
-                    Shape::Number { sketch } => number(sketch),
+                    Shape::Number {
+                        sketch,
+                        within: [None, None],
+                    } => number(sketch),
+                    Shape::Number { sketch, within } => {
+                        let [low, high] = within.each_ref().map(|end| end.as_ref().map(number));
+                        format!(
+                            "{{ value = {}, within = [{}, {}] }}",
+                            number(sketch),
+                            low.unwrap_or("-inf".to_owned()),
+                            high.unwrap_or("inf".to_owned())
+                        )
+                    }
                     Shape::Joint {
                         sort,
                         bodies,

@@ -56,7 +56,7 @@ impl Lowering<'_> {
     /// An unknown of the problem.
     pub fn unknown_number(&self, object: usize) -> Number {
         let of = &self.problem.objects[object];
-        let Shape::Number { sketch } = &of.shape else {
+        let Shape::Number { sketch, .. } = &of.shape else {
             unreachable!("only unknown numbers are asked for")
         };
         Number {
