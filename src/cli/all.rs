@@ -125,11 +125,16 @@ fn share(text: &str) -> Result<[usize; 2], String> {
 fn range(text: &str) -> Result<(String, [Option<Decimal>; 2]), String> {
     let must = "must be an unknown and between which numbers it is to be: x=0..2, x=0.. or x=..2";
     let parts = text.split_once('=');
-    let (name, range) = parts.filter(|(name, _)| !name.trim().is_empty()).ok_or(must)?;
+    let (name, range) = parts
+        .filter(|(name, _)| !name.trim().is_empty())
+        .ok_or(must)?;
     let (low, high) = range.split_once("..").ok_or(must)?;
     let end = |text: &str| match text.trim() {
         "" => Ok(None),
-        text => text.parse().map(Some).map_err(|error| format!("`{text}`: {error}")),
+        text => text
+            .parse()
+            .map(Some)
+            .map_err(|error| format!("`{text}`: {error}")),
     };
     match [end(low)?, end(high)?] {
         [None, None] => Err(must.to_owned()),

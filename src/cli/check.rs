@@ -622,7 +622,10 @@ fn object_line(problem: &Problem, object: &Object) -> String {
             names(&[*end])
         ),
         Shape::Number { sketch, .. } => {
-            let range = object.shape.range().map(|range| format!("; {name} {range}"));
+            let range = object
+                .shape
+                .range()
+                .map(|range| format!("; {name} {range}"));
             let range = range.unwrap_or_default();
             format!("{name}, an unknown (in the sketch {sketch}{range})")
         }

@@ -57,7 +57,7 @@ fn standing(solutions: &[Solution]) -> Vec<bool> {
 
 /// The result as a text of several lines: what is proved, the solutions, the numbers of the search.
 pub fn complete_to_table(problem: &Problem, result: &Complete) -> String {
-    let mut out = format!("{}: {}\n", problem.name, verdict(problem, result));
+    let mut out = format!("{}: {}\n", problem.name, complete_in_words(problem, result));
     for part in &result.undecided {
         let parts = counted(part.count as usize, "part");
         let share = 100.0 * part.share;
@@ -122,7 +122,7 @@ pub fn complete_to_table(problem: &Problem, result: &Complete) -> String {
     for part in &result.parts {
         let (names, verdict) = (
             all_names(&part.problem).join(", "),
-            verdict(&part.problem, &part.result),
+            complete_in_words(&part.problem, &part.result),
         );
         out += &format!("\nPart {names}: {verdict}\n");
     }
@@ -242,7 +242,7 @@ pub fn made_in_words(made: &Account) -> String {
 }
 
 /// What was found, in words that claim no more than was proved.
-pub(super) fn verdict(problem: &Problem, result: &Complete) -> String {
+pub fn complete_in_words(problem: &Problem, result: &Complete) -> String {
     let signed = result.signed.unwrap_or_default();
     let mut struck = match (signed.cut, signed.wrong) {
         (0, 0) => String::new(),

@@ -67,12 +67,13 @@ pub(super) fn all(problem: &Problem, options: &Options) -> Option<Result<Complet
     let is_cancelled = || options.cancel.is_some_and(|c| c.load(Ordering::Relaxed));
     let mut result = match real {
         Some((solutions, count)) => Complete {
-            reason: solutions
-                .is_empty()
-                .then(|| match problem.objects.iter().any(|of| of.shape.range().is_some()) {
+            reason: solutions.is_empty().then(|| {
+                match problem.objects.iter().any(|of| of.shape.range().is_some()) {
                     true => "none of the complex solutions is real and in these ranges",
                     false => "none of the complex solutions is real",
-                }.to_owned()),
+                }
+                .to_owned()
+            }),
             method: Method::Complex,
             symmetry: first.symmetry,
             driving: first.driving,

@@ -318,8 +318,7 @@ impl ProblemBuilder {
                         }
                     }
                     DraftShape::Number(sketch, [low, high]) => {
-                        let within =
-                            [low, high].map(|end| end.as_ref().map(&given).transpose());
+                        let within = [low, high].map(|end| end.as_ref().map(&given).transpose());
                         let [low, high] = within;
                         let within = [low?, high?];
                         check_within(&within)

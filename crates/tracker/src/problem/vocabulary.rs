@@ -18,7 +18,9 @@ fn wanted(table: &str) -> &'static str {
         "lines" => "[\"point\", \"point\"], or { point = [...], direction = [...] }",
         "planes" => "[\"point\", \"point\", \"point\"], or { point = [...], normal = [...] }",
         "circles" | "spheres" => "{ center = \"point\", radius = number }",
-        "unknowns" => "a number, where the path begins, or { value = number, within = [number, number] }",
+        "unknowns" => {
+            "a number, where the path begins, or { value = number, within = [number, number] }"
+        }
         "joints" => super::joint::WANTED,
         "arcs" => "{ center = \"point\", start = \"point\", end = \"point\" }",
         _ => "points with their coordinates in the body's own frame, { p1 = [...], p2 = [...] }",
@@ -211,7 +213,10 @@ fn unknown(name: &str, at: &At, builder: ProblemBuilder) -> Result<ProblemBuilde
     };
     let ends = range.map(|at| range_of(&at)).transpose()?;
     let ends = ends.unwrap_or_default();
-    let value = match (value, ends.each_ref().map(|end| end.as_ref().map(Decimal::to_f64))) {
+    let value = match (
+        value,
+        ends.each_ref().map(|end| end.as_ref().map(Decimal::to_f64)),
+    ) {
         (Some(value), _) => value.number()?,
         (None, [None, None]) => return Err(wrong()),
         (None, [low, high]) => {

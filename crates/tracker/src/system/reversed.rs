@@ -207,9 +207,14 @@ impl Homotopy {
             let unknown = self.object_unknowns(object).next().ok_or(object)?;
             // The unit is a power of two.
             let unit = point(self.unit.powi(-self.power(unknown)));
-            let [low, high] = within.each_ref().map(|end| end.as_ref().map(|x| enclose(x) * unit));
+            let [low, high] = within
+                .each_ref()
+                .map(|end| end.as_ref().map(|x| enclose(x) * unit));
             let between = |low: Option<f64>, high: Option<f64>| {
-                let (low, high) = (low.unwrap_or(f64::NEG_INFINITY), high.unwrap_or(f64::INFINITY));
+                let (low, high) = (
+                    low.unwrap_or(f64::NEG_INFINITY),
+                    high.unwrap_or(f64::INFINITY),
+                );
                 checked(low, high).unwrap_or(Interval::EMPTY)
             };
             all.push(Held {

@@ -594,7 +594,11 @@ impl<'a> Figures<'a> {
                     let x = figure.figure.enclosure(held.unknown);
                     held.admits(x).is_none()
                 });
-                Judged::Undecided(if is_border { Why::Border } else { Why::Vanishing })
+                Judged::Undecided(if is_border {
+                    Why::Border
+                } else {
+                    Why::Vanishing
+                })
             }
         }
     }

@@ -175,7 +175,10 @@ impl Space {
             coordinates.any(|&[i, j]| i != j && !(at(i) - at(j)).contains(0.0))
         };
         self.eq.positive.iter().all(|&i| at(i).inf() > 0.0)
-            && self.held.iter().all(|held| held.admits(at(held.unknown)) == Some(true))
+            && self
+                .held
+                .iter()
+                .all(|held| held.admits(at(held.unknown)) == Some(true))
             && self.eq.nonzero.iter().all(is_there)
     }
 
