@@ -123,6 +123,7 @@ impl<'s, 'a> Piece<'s, 'a> {
             };
             if why != Why::Small {
                 self.curve = Some(why);
+                self.tally.is_flexible |= why == Why::Flexible;
             }
             self.tally.leave(why, share);
             return;

@@ -15,6 +15,8 @@ pub struct Tally<'s> {
     pub found: Found,
     /// The parts that stay undecided.
     pub left: usize,
+    /// Whether a curve of figures was seen: then no set is complete, and it is not worth much to leave few parts of it.
+    pub is_flexible: bool,
 }
 
 impl<'s> Tally<'s> {
@@ -25,6 +27,7 @@ impl<'s> Tally<'s> {
             has_ranges,
             found: Found::default(),
             left: 0,
+            is_flexible: false,
         }
     }
 
@@ -39,7 +42,11 @@ impl<'s> Tally<'s> {
             self.leave(Why::Unfinished, share);
             return false;
         }
-        if self.left > if self.has_ranges { MANY } else { TOO_MANY } {
+        let most = match self.has_ranges || self.is_flexible {
+            true => MANY,
+            false => TOO_MANY,
+        };
+        if self.left > most {
             self.leave(Why::GivenUp, share);
             return false;
         }
