@@ -599,14 +599,14 @@ fn a_cover_of_a_range_is_one_of_no_other() {
     assert_eq!(verdict.solutions, Some(3));
     assert!(verdict.proves_all() && verdict.is_about(&problem));
     assert!(!verdict.is_about(&curves("[-3, 2]")) && !verdict.is_about(&curves("1.2")));
-    for wider in ["within = [-3", "within = [-inf"] {
-        assert!(cover.problem.contains("within = [-1"));
-        let other = cover.problem.replace("within = [-1", wider);
+    for wider in ["within = [-3.0", "within = [-inf"] {
+        assert!(cover.problem.contains("within = [-1.0"));
+        let other = cover.problem.replace("within = [-1.0", wider);
         let before = std::mem::replace(&mut cover.problem, other);
         assert!(!check(&cover).proves_all(), "{wider}");
         cover.problem = before;
     }
     // Solutions that are out of a narrower one are none.
-    cover.problem = cover.problem.replace("within = [-1", "within = [0");
+    cover.problem = cover.problem.replace("within = [-1.0", "within = [0.0");
     assert!(!check(&cover).proves_all());
 }

@@ -55,7 +55,7 @@ fn what_is_wrong_is_said_with_its_place() {
             "equations = 3\n[unknowns]\nx = 1\n",
             "a list of equations in quotes",
         ),
-        ("[unknowns]\nx = [1, 2]\n", "unknowns.x: must be a number"),
+        ("[unknowns]\nx = [1, 2, 3]\n", "unknowns.x: must be a range"),
         ("[unknowns]\nx = 1\n", "constraints"),
     ] {
         fs::write(file, text).unwrap();
@@ -154,12 +154,13 @@ fn ranges_are_said() {
     let (code, said) = run(&["all", &own, "--cert", &cert, "--pick", "1", "--out", &out]);
     assert_eq!(code, Some(0), "{said}");
     let (code, said) = run(&["verify", &cert, &own]);
-    let theorem = "has exactly 1 solution with x between 0 and 2 and y at most 9";
+    let theorem = "has exactly 1 solution with x between 0 and 2.0 and y at most 9.0";
     assert!(code == Some(0) && said.contains(theorem), "{said}");
     // The solution that is taken begins there, in the same range.
     let taken = fs::read_to_string(&out).unwrap();
     assert!(
-        taken.contains("x = { value = 1.414213562373095") && taken.contains("within = [0, 2] }"),
+        taken.contains("x = { value = 1.414213562373095")
+            && taken.contains("within = [0.0, 2.0] }"),
         "{taken}"
     );
     // The certificate is not one of the file with another range.
@@ -227,6 +228,6 @@ fn complex_solutions_are_told_to_many_digits() {
     let file = "docs/examples/circle-hyperbola.toml";
     let (code, said) = run(&["complex", file, "--digits", "40"]);
     // √(2 + √3) = (√6 + √2)/2
-    let digits = "x = 1.931851652578136573499486399457061059165";
-    assert!(code == Some(0) && said.contains(&digits[..38]), "{said}");
+    let digits = "x = 1.93185165257813657349948639945779473";
+    assert!(code == Some(0) && said.contains(digits), "{said}");
 }

@@ -4,7 +4,7 @@
 use super::builder::ProblemBuilder;
 use super::cursor::{At, TEXT};
 use super::file::{FileError, Reader};
-use super::{AXES, Decimal, expression, joint};
+use super::{AXES, Decimal, DecimalError, expression, joint};
 use crate::constraint::{KINDS, Kind, Measure};
 
 /// The tables of objects.
@@ -222,7 +222,8 @@ fn unknown(name: &str, at: &At, builder: ProblemBuilder) -> Result<ProblemBuilde
         (None, [low, high]) => {
             let [low, high] = [low.or(high.map(|x| x - 2.0)), high.or(low.map(|x| x + 2.0))];
             let middle = 0.5 * (low.unwrap_or_default() + high.unwrap_or_default());
-            Decimal::try_from(middle).map_err(|error| at.fault(error))?
+            let middle = middle.to_string().parse();
+            middle.map_err(|error: DecimalError| at.fault(error))?
         }
     };
     Ok(builder.unknown_within(name, value, ends))

@@ -1,7 +1,7 @@
 //! What is counted in a part of a search that goes on by itself, whatever its own parts are.
 
 use super::newton::Square;
-use super::search::{COARSE, Found, MANY, Run, SMALL, TOO_MANY, add, leave};
+use super::search::{COARSE, FEW, Found, MANY, Run, SMALL, TOO_MANY, add, leave};
 use crate::complete::Why;
 use crate::interval::Interval;
 use std::sync::atomic::Ordering;
@@ -42,9 +42,10 @@ impl<'s> Tally<'s> {
             self.leave(Why::Unfinished, share);
             return false;
         }
-        let most = match self.has_ranges || self.is_flexible {
-            true => MANY,
-            false => TOO_MANY,
+        let most = match (self.is_flexible, self.has_ranges) {
+            (true, _) => FEW,
+            (_, true) => MANY,
+            _ => TOO_MANY,
         };
         if self.left > most {
             self.leave(Why::GivenUp, share);
