@@ -169,7 +169,7 @@ class Complete(Shown):
 
 
 @dataclass(frozen=True)
-class Edited(Shown):
+class Edited:
     """What came of an edit."""
 
     #: "reached", "limit", "passes" or "stopped".
