@@ -102,6 +102,7 @@
 //! - [`explore`]: new sketches from solutions, and their paths
 //! - [`compare`]: all modes and spaces beside each other, timed and judged
 //! - [`report`]: tables, JSON, pictures, progress
+//! - [`algebra`]: systems of equations of one's own, and all their solutions
 //! - `cli`: the command line of the program
 //!
 //! From `hexadecimal` to `linalg` they are those of the package `krawl-kernel` in `crates/kernel`, from `statement` to
@@ -128,6 +129,7 @@ use krawl_solver::{debug_in_words, named, order, places, sets};
 #[cfg(feature = "explore")]
 use krawl_solver::{journal, random};
 
+pub mod algebra;
 // In the library, so that what both need of generic code is made once.
 #[cfg(feature = "cli")]
 #[doc(hidden)]

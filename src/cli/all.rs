@@ -11,7 +11,7 @@ use super::verify::check_cover;
 use super::{CLOSED, INCOMPLETE, NOT_PROVED, STOPPED, input, interrupt};
 use krawl::complete::{Complete, Keep, Options, Progress, Status, Tested, Unserved, all};
 use krawl::constraint::Symmetry;
-use krawl::problem::counted;
+use krawl::problem::{Decimal, counted};
 use krawl::report::{
     Document, ProgressLine, complete_to_table, conformers_to_table, conformers_told,
     digits_to_table, made_in_words,
@@ -89,6 +89,11 @@ pub struct Arguments {
     /// Whatever `orientation` asks for, and the chirality that a molecule has in its file
     #[arg(long, hide_short_help = true)]
     any_signs: bool,
+    /// Look for solutions in which an unknown is in a range, `x=0..2`; one end may be left out
+    ///
+    /// In place of the range that the file gives it; may be given several times
+    #[arg(long, value_name = "X=FROM..TO", value_parser = range, hide_short_help = true)]
+    within: Vec<(String, [Option<Decimal>; 2])>,
     #[command(flatten)]
     take: Take,
     #[command(flatten)]
@@ -117,13 +122,38 @@ fn share(text: &str) -> Result<[usize; 2], String> {
     }
 }
 
+fn range(text: &str) -> Result<(String, [Option<Decimal>; 2]), String> {
+    let must = "must be an unknown and between which numbers it is to be: x=0..2, x=0.. or x=..2";
+    let parts = text.split_once('=');
+    let (name, range) = parts
+        .filter(|(name, _)| !name.trim().is_empty())
+        .ok_or(must)?;
+    let (low, high) = range.split_once("..").ok_or(must)?;
+    let end = |text: &str| match text.trim() {
+        "" => Ok(None),
+        text => text
+            .parse()
+            .map(Some)
+            .map_err(|error| format!("`{text}`: {error}")),
+    };
+    match [end(low)?, end(high)?] {
+        [None, None] => Err(must.to_owned()),
+        ends => Ok((name.trim().to_owned(), ends)),
+    }
+}
+
 /// Runs the verb and returns the exit code.
 pub fn run(arguments: &Arguments) -> Result<u8, Refusal> {
     let (file, which) = (&arguments.file, &arguments.which);
     arguments.take.check(file)?;
     let tolerance = arguments.redundant_tolerance;
     let asked = input::asked((file, which), tolerance, arguments.any_signs)?;
-    let problem = asked.problem;
+    let mut problem = asked.problem;
+    for (name, ends) in &arguments.within {
+        let restricted = problem.restrict(name, ends.clone());
+        restricted.map_err(|why| format!("{}: --within: {why}", file.display()))?;
+    }
+    let problem = problem;
     let measures = arguments.measured.of(&problem)?;
     let named = [arguments.json.as_deref(), None];
     let mut results = Results::open([file], named, &arguments.pictures, arguments.quiet)?;

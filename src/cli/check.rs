@@ -621,7 +621,14 @@ fn object_line(problem: &Problem, object: &Object) -> String {
             names(&[*start]),
             names(&[*end])
         ),
-        Shape::Number { sketch } => format!("{name}, an unknown (in the sketch {sketch})"),
+        Shape::Number { sketch, .. } => {
+            let range = object
+                .shape
+                .range()
+                .map(|range| format!("; {name} {range}"));
+            let range = range.unwrap_or_default();
+            format!("{name}, an unknown (in the sketch {sketch}{range})")
+        }
         Shape::Joint { sort, bodies, .. } => {
             let [one, other] = bodies.map(|body| &problem.objects[body].name);
             format!(

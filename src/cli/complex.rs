@@ -1,14 +1,15 @@
 //! `krawl complex`: all complex solutions of a problem.
 
+use super::digits::ManyDigits;
 use super::output::{self, Beside, in_file};
 use super::results::Results;
 use super::template::{Search, TemplateText, read};
 use super::{CLOSED, INCOMPLETE, STOPPED, in_pool, interrupt};
 use crate::report::names;
 use krawl::certificate::complex::{ComplexFlaw, verify_complex_set};
-use krawl::complex::{Lowered, Status, Template, Ways, solve, to_certificate};
+use krawl::complex::{Lowered, Nature, Status, Template, Ways, solve, to_certificate};
 use krawl::problem::Problem;
-use krawl::report::{ProgressLine, complex_to_json, complex_to_table};
+use krawl::report::{ProgressLine, complex_to_json, complex_to_table, digits_to_table};
 use std::path::{Path, PathBuf};
 
 /// Find all complex solutions, every path proved (unless --float)
@@ -56,6 +57,8 @@ pub struct Arguments {
     /// List all solutions, not the real ones only
     #[arg(long)]
     all: bool,
+    #[command(flatten)]
+    many: ManyDigits,
     #[command(flatten)]
     search: Search,
     /// Print no table and no progress
@@ -126,8 +129,19 @@ pub fn run(arguments: &Arguments) -> Result<u8, String> {
             }
         }
     }
-    results.write_json(|| complex_to_json(&problem, &lowered, &result) + "\n");
-    results.print(|| complex_to_table(&problem, &lowered, &result, arguments.all));
+    let many = arguments.many.of_complex((&problem, &lowered), &result);
+    results.write_json(|| {
+        let digits = arguments.many.told(&problem, &many);
+        complex_to_json(&problem, &lowered, &result, digits) + "\n"
+    });
+    results.print(|| {
+        let mut text = complex_to_table(&problem, &lowered, &result, arguments.all);
+        let is_real = |k: &usize| result.natures[*k] == Nature::Real;
+        for k in (0..many.len()).filter(|k| arguments.all || is_real(k)) {
+            text += &digits_to_table(&problem, k + 1, &many[k..=k]);
+        }
+        text
+    });
     Ok(results.code(match result.status {
         Status::Complete => CLOSED,
         Status::Found => INCOMPLETE,

@@ -1,6 +1,7 @@
 //! Solutions to many digits, where these are asked for.
 
-use krawl::digits::{Digits, MOST_DIGITS, to_digits};
+use krawl::complex::{Lowered, Nature, Solutions};
+use krawl::digits::{Digits, MOST_DIGITS, complex_to_digits, to_digits};
 use krawl::problem::Problem;
 use krawl::report::document::ManyDigits as Told;
 use krawl::track::Solution;
@@ -25,6 +26,20 @@ impl ManyDigits {
     /// Whether they are asked for.
     pub fn is_wanted(&self) -> bool {
         self.digits.is_some()
+    }
+
+    /// Complex solutions, each to so many digits or why it is not; none where that is not asked for.
+    pub fn of_complex(
+        &self,
+        problem: (&Problem, &Lowered),
+        found: &Solutions,
+    ) -> Vec<Result<Digits, String>> {
+        let Some(digits) = self.digits else {
+            return Vec::new();
+        };
+        let all = found.boxes.boxes().iter().zip(&found.natures);
+        all.map(|(one, nature)| complex_to_digits(problem, one, *nature == Nature::Real, digits))
+            .collect()
     }
 
     /// Solutions whose points are seen from `reference`, each to so many digits or why it is not; none where that is not

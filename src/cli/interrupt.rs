@@ -3,16 +3,22 @@
 use super::output::Certificate;
 use krawl::report::ProgressLine;
 use krawl::track::{Control, Progress, Witness};
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 static REQUESTED: AtomicBool = AtomicBool::new(false);
+/// Of verbs that another program runs within itself, the number of the one that runs.
+static RUN: AtomicU64 = AtomicU64::new(0);
 
 /// The shells' exit code for a program that an interrupt ended: 128 and the signal's number.
 const INTERRUPTED: i32 = 130;
 
 /// The flag that the first Ctrl-C (or termination signal) sets. The second ends the program.
 pub fn flag() -> &'static AtomicBool {
+    // Another program has its own way.
+    if RUN.load(Ordering::Relaxed) > 0 {
+        return &REQUESTED;
+    }
     // Where no handler can be set, Ctrl-C ends the program the usual way.
     let _ = ctrlc::set_handler(|| {
         if REQUESTED.swap(true, Ordering::Relaxed) {
@@ -20,6 +26,17 @@ pub fn flag() -> &'static AtomicBool {
         }
     });
     &REQUESTED
+}
+
+/// A verb begins that another program runs within itself.
+pub fn begin() {
+    RUN.fetch_add(1, Ordering::Relaxed);
+    REQUESTED.store(false, Ordering::Relaxed);
+}
+
+/// Asks for the end of what runs.
+pub fn request() {
+    REQUESTED.store(true, Ordering::Relaxed);
 }
 
 /// Whether the end of what runs was asked for.
@@ -76,13 +93,16 @@ impl Time {
         if let Some(seconds) = self.time {
             // Less than a thread takes to begin: a quick run would be done before it could tell.
             if seconds < 1e-6 {
-                REQUESTED.store(true, Ordering::Relaxed);
+                request();
                 return;
             }
             // Where no thread can be had the run goes on to its end.
+            let run = RUN.load(Ordering::Relaxed);
             let _ = std::thread::Builder::new().spawn(move || {
                 std::thread::sleep(Duration::from_secs_f64(seconds));
-                REQUESTED.store(true, Ordering::Relaxed);
+                if RUN.load(Ordering::Relaxed) == run {
+                    request();
+                }
             });
         }
     }

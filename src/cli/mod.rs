@@ -32,7 +32,9 @@ mod verify;
 mod work;
 
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+use std::panic::AssertUnwindSafe;
 use std::process::ExitCode;
+use std::sync::{Mutex, PoisonError};
 
 /// Exit code of a run that closed, of a check that found nothing wrong, and of a certificate that
 /// is verified.
@@ -176,7 +178,62 @@ pub fn run() -> ExitCode {
         output::complain(&message);
         return ExitCode::from(BAD_INPUT);
     }
-    let done = match parse().verb {
+    ExitCode::from(of_verb(parse().verb))
+}
+
+/// What came of a verb that another program ran within itself: the exit code, and what it would have printed.
+pub struct Called {
+    /// The exit code.
+    pub code: u8,
+    /// What would stand on standard output.
+    pub output: String,
+    /// What would stand on standard error.
+    pub messages: String,
+}
+
+/// Runs a verb within another program, with the arguments that the command line would have behind `krawl`. Several at once run one after the other.
+pub fn call(arguments: &[String]) -> Called {
+    static ONE: Mutex<()> = Mutex::new(());
+    let _one = ONE.lock().unwrap_or_else(PoisonError::into_inner);
+    interrupt::begin();
+    output::keep(true);
+    let parsed = Arguments::try_parse_from(
+        ["krawl"]
+            .into_iter()
+            .chain(arguments.iter().map(String::as_str)),
+    );
+    let run = || match (processor::check(), parsed) {
+        (Err(message), _) => {
+            output::complain(&message);
+            BAD_INPUT
+        }
+        (Ok(()), Ok(arguments)) => of_verb(arguments.verb),
+        (Ok(()), Err(error)) if error.use_stderr() => {
+            output::complain(error.to_string().trim_end());
+            BAD_INPUT
+        }
+        (Ok(()), Err(help)) => {
+            output::print(&help.to_string());
+            CLOSED
+        }
+    };
+    let code = std::panic::catch_unwind(AssertUnwindSafe(run));
+    let said = output::keep(false);
+    Called {
+        code: code.unwrap_or_else(|panic| std::panic::resume_unwind(panic)),
+        output: said.output,
+        messages: said.messages,
+    }
+}
+
+/// Asks for the end of the verb that [`call`] runs, as Ctrl-C does on the command line.
+pub fn end_call() {
+    interrupt::request();
+}
+
+/// Runs a verb: its exit code.
+fn of_verb(verb: Verb) -> u8 {
+    let done = match verb {
         Verb::All(arguments) => Ok(output::exit_code(all::run(&arguments))),
         Verb::Check(arguments) => check::run(&arguments),
         Verb::Compare(arguments) => compare::run(&arguments),
@@ -198,7 +255,7 @@ pub fn run() -> ExitCode {
         Verb::Completions(arguments) => shell::completions(&arguments),
         Verb::Man(arguments) => shell::man(&arguments),
     };
-    ExitCode::from(output::exit_code(done))
+    output::exit_code(done)
 }
 
 /// Runs what follows with a number of threads; `None`: one per processor.

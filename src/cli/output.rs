@@ -7,6 +7,7 @@ use krawl::track::Control;
 use std::fs;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 
 /// Says on standard error that the signs that a problem asks for are not looked at, where it asks for some.
 pub fn say_if_signs_are_not_looked_at(problem: &Problem) {
@@ -21,8 +22,35 @@ pub fn in_file<E: std::fmt::Display>(file: &Path) -> impl Fn(E) -> String {
     move |error| format!("{}: {error}", file.display())
 }
 
+/// What a verb has said that another program runs within itself.
+#[derive(Default)]
+pub struct Said {
+    /// What would stand on standard output.
+    pub output: String,
+    /// What would stand on standard error.
+    pub messages: String,
+}
+
+static SAID: Mutex<Option<Said>> = Mutex::new(None);
+
+/// Has what is said kept from now on, or no longer: what was kept until now.
+pub fn keep(wanted: bool) -> Said {
+    let begun = wanted.then(Said::default);
+    let mut said = SAID.lock().unwrap_or_else(PoisonError::into_inner);
+    std::mem::replace(&mut *said, begun).unwrap_or_default()
+}
+
+/// Whether what is said is kept; then this is, too.
+fn is_kept(say: impl FnOnce(&mut Said)) -> bool {
+    let mut said = SAID.lock().unwrap_or_else(PoisonError::into_inner);
+    said.as_mut().map(say).is_some()
+}
+
 /// Prints one message on standard error. If that is closed there is nobody to tell.
 pub fn complain(message: &str) {
+    if is_kept(|said| said.messages += &format!("{message}\n")) {
+        return;
+    }
     let _ = writeln!(io::stderr().lock(), "krawl: {message}");
 }
 
@@ -72,6 +100,9 @@ pub fn code(is_written: bool, code: u8) -> u8 {
 /// Prints a text on standard output. A reader who left early has seen enough; any other failure
 /// is complained about. Returns whether all is well.
 pub fn print(text: &str) -> bool {
+    if is_kept(|said| said.output += text) {
+        return true;
+    }
     let mut out = io::stdout().lock();
     let written = out.write_all(text.as_bytes()).and_then(|()| out.flush());
     is_well(&"standard output", written)

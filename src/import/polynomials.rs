@@ -62,10 +62,14 @@ fn in_toml(program: &str, system: &System) -> String {
     }
     out += "]\n\n# It has no sketch: these numbers mean nothing.\n[unknowns]\n";
     for (k, name) in system.unknowns.iter().enumerate() {
-        let start = 31 + 37 * k % 100;
-        writeln!(out, "{} = {}e-2", quoted(name), start).expect("memory");
+        writeln!(out, "{} = {}", quoted(name), start(k)).expect("memory");
     }
     out
+}
+
+/// Where an unknown begins of which nothing is known: no two of the first hundred at the same number.
+pub(crate) fn start(k: usize) -> f64 {
+    (31 + 37 * k % 100) as f64 / 100.0
 }
 
 /// What stands between commas that are in no parentheses.

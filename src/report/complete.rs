@@ -33,6 +33,9 @@ pub(super) fn why(why: Why) -> &'static str {
         Why::Vanishing => {
             "whether a vector that must not vanish has a length, or a length is positive, is not certain"
         }
+        Why::Border => {
+            "a solution at the end of a range, or so near to it that it may be out of it"
+        }
         Why::Sign => "a figure of which a sign that is asked for cannot be told",
         Why::Apart => "solutions too close to each other to be told apart",
     }
@@ -54,7 +57,7 @@ fn standing(solutions: &[Solution]) -> Vec<bool> {
 
 /// The result as a text of several lines: what is proved, the solutions, the numbers of the search.
 pub fn complete_to_table(problem: &Problem, result: &Complete) -> String {
-    let mut out = format!("{}: {}\n", problem.name, verdict(problem, result));
+    let mut out = format!("{}: {}\n", problem.name, complete_in_words(problem, result));
     for part in &result.undecided {
         let parts = counted(part.count as usize, "part");
         let share = 100.0 * part.share;
@@ -119,7 +122,7 @@ pub fn complete_to_table(problem: &Problem, result: &Complete) -> String {
     for part in &result.parts {
         let (names, verdict) = (
             all_names(&part.problem).join(", "),
-            verdict(&part.problem, &part.result),
+            complete_in_words(&part.problem, &part.result),
         );
         out += &format!("\nPart {names}: {verdict}\n");
     }
@@ -239,7 +242,7 @@ pub fn made_in_words(made: &Account) -> String {
 }
 
 /// What was found, in words that claim no more than was proved.
-pub(super) fn verdict(problem: &Problem, result: &Complete) -> String {
+pub fn complete_in_words(problem: &Problem, result: &Complete) -> String {
     let signed = result.signed.unwrap_or_default();
     let mut struck = match (signed.cut, signed.wrong) {
         (0, 0) => String::new(),
@@ -294,6 +297,10 @@ fn without_sides(problem: &Problem, result: &Complete) -> String {
     let have = match result.signed {
         None => have,
         Some(signed) => format!("{have}{with} {}", signs_in_words(signed.asked)),
+    };
+    let have = match have.is_empty() {
+        true => in_ranges(problem),
+        false => have + &in_ranges(problem).replacen(" with", " and", 1),
     };
     let tested = result
         .tested
@@ -463,6 +470,16 @@ pub fn among_in_words(among: Among) -> String {
     )
 }
 
+/// Between which numbers unknowns are sought, ` with x between 0 and 2`; empty where that may be any.
+fn in_ranges(problem: &Problem) -> String {
+    let ranges = problem.objects.iter();
+    let ranges = ranges.filter_map(|o| Some(format!("{} {}", o.name, o.shape.range()?)));
+    match ranges.collect::<Vec<String>>() {
+        all if all.is_empty() => String::new(),
+        all => format!(" with {}", all.join(" and ")),
+    }
+}
+
 /// What a checked cover proves.
 pub fn cover_theorem(verdict: &CoverVerdict, took: std::time::Duration) -> String {
     let name = &verdict.problem.name;
@@ -472,13 +489,14 @@ pub fn cover_theorem(verdict: &CoverVerdict, took: std::time::Duration) -> Strin
     let (up_to, different) = counted_once(&verdict.problem, symmetry(&verdict.problem));
     let exactly = verdict.solutions.map_or("", |_| "exactly ");
     let supposed = supposed(&verdict.problem);
+    let have = in_ranges(&verdict.problem);
     match &verdict.flaw {
         Some(flaw) => format!("NOT PROVED: {name}: {flaw}. Nothing is claimed.\n"),
         None if verdict.undecided == 0 => format!(
-            "VERIFIED: {name} has {exactly}{count}{up_to}. The cover has {parts}, each proved again in {seconds:.2} s.{supposed}\n"
+            "VERIFIED: {name} has {exactly}{count}{have}{up_to}. The cover has {parts}, each proved again in {seconds:.2} s.{supposed}\n"
         ),
         None => format!(
-            "INCOMPLETE: {name} has {count} at least, {different}; nothing is claimed of {} of the {parts} of the \
+            "INCOMPLETE: {name} has {count}{have} at least, {different}; nothing is claimed of {} of the {parts} of the \
              cover. Any other solution lies there. Checked in {seconds:.2} s.{supposed}\n",
             verdict.undecided
         ),

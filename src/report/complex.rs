@@ -1,7 +1,7 @@
 //! Complex solutions, as text and for programs.
 
 use super::certain_digits;
-use super::document::{Complex, names, text};
+use super::document::{Complex, ManyDigits, names, text};
 use crate::certificate::complex::{ComplexFlaw, ComplexVerdict};
 use crate::complex::infinity::{Departure, Split};
 use crate::complex::{Lowered, Nature, SolutionBox, Solutions, Status};
@@ -45,6 +45,21 @@ pub(super) fn others(lowered: &Lowered) -> Vec<usize> {
         .collect()
 }
 
+/// What people named in equations of their own, in a solution.
+pub fn named_numbers(
+    (problem, lowered): (&Problem, &Lowered),
+    one: &SolutionBox,
+    nature: Nature,
+) -> Vec<(String, [Interval; 2])> {
+    let named = others(lowered).into_iter().filter_map(|u| {
+        let name = &lowered.system.unknowns[u].name;
+        let mut objects = problem.objects.iter();
+        objects.find(|object| object.name == *name)?;
+        Some((name.clone(), coordinate(lowered, one, nature, Some(u))))
+    });
+    named.collect()
+}
+
 /// The vectors that vanish in a solution, as far as its box tells, and must not in a figure.
 pub(super) fn vanishing<'a>(
     lowered: &'a Lowered,
@@ -83,8 +98,16 @@ fn no_figures(lowered: &Lowered, result: &Solutions) -> String {
 }
 
 /// The result for programs, as one line of JSON.
-pub fn complex_to_json(problem: &Problem, lowered: &Lowered, result: &Solutions) -> String {
-    text(&Complex::new(problem, lowered, result))
+pub fn complex_to_json(
+    problem: &Problem,
+    lowered: &Lowered,
+    result: &Solutions,
+    digits: Option<Vec<ManyDigits>>,
+) -> String {
+    text(&Complex {
+        digits,
+        ..Complex::new(problem, lowered, result)
+    })
 }
 
 /// Solutions are listed in full as long as there are no more.
@@ -97,7 +120,7 @@ pub fn complex_to_table(
     result: &Solutions,
     all: bool,
 ) -> String {
-    let mut out = format!("{}: {}\n", problem.name, verdict(lowered, result));
+    let mut out = format!("{}: {}\n", problem.name, complex_in_words(lowered, result));
     let is_absolute = lowered.system.is_absolute;
     let different = match (is_absolute, others(lowered).is_empty()) {
         (true, _) if lowered.system.is_told_by_points() => "no two are the same figure",
@@ -382,7 +405,7 @@ fn natures(lowered: &Lowered, result: &Solutions) -> String {
 }
 
 /// What was found, in words that claim no more than was proved.
-fn verdict(lowered: &Lowered, result: &Solutions) -> String {
+pub fn complex_in_words(lowered: &Lowered, result: &Solutions) -> String {
     let counts = result.counts_in_words(&lowered.system);
     let up_to = match lowered.system.is_absolute {
         true => "",

@@ -37,8 +37,12 @@ pub use blocks::BlockRuns;
 #[cfg(feature = "cli")]
 pub use comparison::comparisons_to_csv;
 pub use comparison::{Compared, comparison_to_table, comparisons_to_json};
-pub use complete::{among_in_words, complete_to_table, cover_theorem, made_in_words};
-pub use complex::{complex_set_theorem, complex_to_json, complex_to_table};
+pub use complete::{
+    among_in_words, complete_in_words, complete_to_table, cover_theorem, made_in_words,
+};
+pub use complex::{
+    complex_in_words, complex_set_theorem, complex_to_json, complex_to_table, named_numbers,
+};
 pub use conformers::{conformers_to_table, conformers_told};
 pub use digits::digits_to_table;
 pub use document::{Document, JSON_VERSION};

@@ -584,3 +584,29 @@ fn many_random_problems_verify() {
     println!("{verified} of {complete}");
     assert!(20 * verified >= 19 * complete);
 }
+
+/// A cover of solutions in a range says the range, and proves nothing of a wider one.
+#[test]
+fn a_cover_of_a_range_is_one_of_no_other() {
+    let curves = |x: &str| {
+        parse(&format!(
+            "equations = [\"x^2 + y^2 = 4\", \"x*y = 1\"]\n[unknowns]\nx = {x}\ny = 0.5\n"
+        ))
+    };
+    let problem = curves("[-1, 2]");
+    let mut cover = proved(&problem);
+    let verdict = check(&cover);
+    assert_eq!(verdict.solutions, Some(3));
+    assert!(verdict.proves_all() && verdict.is_about(&problem));
+    assert!(!verdict.is_about(&curves("[-3, 2]")) && !verdict.is_about(&curves("1.2")));
+    for wider in ["within = [-3.0", "within = [-inf"] {
+        assert!(cover.problem.contains("within = [-1.0"));
+        let other = cover.problem.replace("within = [-1.0", wider);
+        let before = std::mem::replace(&mut cover.problem, other);
+        assert!(!check(&cover).proves_all(), "{wider}");
+        cover.problem = before;
+    }
+    // Solutions that are out of a narrower one are none.
+    cover.problem = cover.problem.replace("within = [-1.0", "within = [0.0");
+    assert!(!check(&cover).proves_all());
+}

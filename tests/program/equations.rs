@@ -55,7 +55,7 @@ fn what_is_wrong_is_said_with_its_place() {
             "equations = 3\n[unknowns]\nx = 1\n",
             "a list of equations in quotes",
         ),
-        ("[unknowns]\nx = [1, 2]\n", "unknowns.x: must be a number"),
+        ("[unknowns]\nx = [1, 2, 3]\n", "unknowns.x: must be a range"),
         ("[unknowns]\nx = 1\n", "constraints"),
     ] {
         fs::write(file, text).unwrap();
@@ -137,4 +137,97 @@ fn what_is_proved_up_to_somewhere_is_not_said_to_be_proved_beyond() {
             "{said}"
         );
     }
+}
+
+/// Ranges in files and on the command line are in what is claimed, and what is wrong with them is said.
+#[test]
+fn ranges_are_said() {
+    let file = "docs/examples/circle-hyperbola.toml";
+    let (code, said) = run(&["all", file, "--within", "x=0..2", "--within", "y=..1"]);
+    let claim = "Complete, proved: 1 solution with x between 0 and 2 and y at most 1, and there is no other.";
+    assert!(code == Some(0) && said.contains(claim), "{said}");
+    let directory = tempfile::tempdir().unwrap();
+    let path = |name: &str| directory.path().join(name).to_str().unwrap().to_owned();
+    let (own, cert, out) = (path("own.toml"), path("own.krawl"), path("out.toml"));
+    let text = "equations = [\"x^2 = 2\", \"x*y = 1\"]\n[unknowns]\nx = [0, 2]\ny = { within = [-inf, 9] }\n";
+    fs::write(&own, text).unwrap();
+    let (code, said) = run(&["all", &own, "--cert", &cert, "--pick", "1", "--out", &out]);
+    assert_eq!(code, Some(0), "{said}");
+    let (code, said) = run(&["verify", &cert, &own]);
+    let theorem = "has exactly 1 solution with x between 0 and 2.0 and y at most 9.0";
+    assert!(code == Some(0) && said.contains(theorem), "{said}");
+    // The solution that is taken begins there, in the same range.
+    let taken = fs::read_to_string(&out).unwrap();
+    assert!(
+        taken.contains("x = { value = 1.414213562373095")
+            && taken.contains("within = [0.0, 2.0] }"),
+        "{taken}"
+    );
+    // The certificate is not one of the file with another range.
+    let wider = text.replace("[0, 2]", "[-2, 2]");
+    fs::write(&own, &wider).unwrap();
+    let (code, said) = run(&["verify", &cert, &own]);
+    assert_eq!(code, Some(1), "{said}");
+    let (_, said) = run(&["check", &own]);
+    assert!(said.contains("x between -2 and 2"), "{said}");
+    for (arguments, words) in [
+        (["--within", "z=0..2"], "there is no unknown `z`"),
+        (
+            ["--within", "x=2..0"],
+            "from the lesser number to the greater one",
+        ),
+        (["--within", "x=.."], "x=0..2, x=0.. or x=..2"),
+        (["--within", "x"], "x=0..2, x=0.. or x=..2"),
+        (["--within", "x=a..2"], "`a`"),
+    ] {
+        let (code, said) = run(&[&["all", file], &arguments[..]].concat());
+        assert!(
+            code == Some(2) && said.contains(words),
+            "{arguments:?}: {said}"
+        );
+    }
+    for (unknown, words) in [
+        ("x = [2, 0]", "from the lesser number to the greater one"),
+        (
+            "x = [0, 1, 2]",
+            "a range, [0, 2], or [0, inf] where it has no end",
+        ),
+        ("x = [-inf, inf]", "within = [number, number]"),
+        ("x = { within = [0, \"2\"] }", "a number without quotes"),
+        ("x = { from = 1 }", "from"),
+    ] {
+        fs::write(
+            &own,
+            format!("equations = [\"x^2 = 2\"]\n[unknowns]\n{unknown}\n"),
+        )
+        .unwrap();
+        let (code, said) = run(&["all", &own]);
+        assert!(code == Some(2) && said.contains(words), "{unknown}: {said}");
+    }
+}
+
+/// A set that has a curve of solutions is told so soon: cyclic-4 has x₃ = −x₁, x₄ = −x₂, (x₁ x₂)² = 1.
+#[test]
+fn curves_of_solutions_are_told_soon() {
+    let directory = tempfile::tempdir().unwrap();
+    let file = directory.path().join("cyclic-4");
+    let text = "4\na+b+c+d;\na*b+b*c+c*d+d*a;\na*b*c+b*c*d+c*d*a+d*a*b;\na*b*c*d-1;\n";
+    fs::write(&file, text).unwrap();
+    let (code, said) = run(&["all", file.to_str().unwrap()]);
+    assert!(
+        code == Some(1) && said.contains("Flexible: a curve of solutions is seen"),
+        "{said}"
+    );
+    let boxes = said.split_once("boxes ").unwrap().1.trim_start();
+    let boxes: u64 = boxes.split_whitespace().next().unwrap().parse().unwrap();
+    assert!(boxes < 400_000, "{said}");
+}
+
+#[test]
+fn complex_solutions_are_told_to_many_digits() {
+    let file = "docs/examples/circle-hyperbola.toml";
+    let (code, said) = run(&["complex", file, "--digits", "40"]);
+    // √(2 + √3) = (√6 + √2)/2
+    let digits = "x = 1.93185165257813657349948639945779473";
+    assert!(code == Some(0) && said.contains(digits), "{said}");
 }

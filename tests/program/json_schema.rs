@@ -209,8 +209,17 @@ fn results_of_other_verbs_meet_their_schemas() {
     }
     let octahedron = "problems/octahedron.toml";
     let template = "problems/octahedron.krawl-template";
-    let (complex, complaints) =
-        written("complex", &["complex", octahedron, "--template", template]);
+    let (complex, complaints) = written(
+        "complex",
+        &[
+            "complex",
+            octahedron,
+            "--template",
+            template,
+            "--digits",
+            "12",
+        ],
+    );
     assert_eq!(complaints, [""; 0]);
     assert!(complex["solutions"].as_array().unwrap().len() > 1);
     let butterfly = "problems/mechanisms/double-butterfly.toml";

@@ -252,3 +252,33 @@ def test_equations_of_ones_own():
     assert abs(edited.unknowns["x"] ** 2 + edited.unknowns["y"] ** 2 - 5) < 1e-9
     with pytest.raises(krawl.Error, match="no unknown or parameter `z`"):
         krawl.complete(krawl.system(["x + z"], {"x": 1}))
+
+
+def test_verbs_of_the_command_line_give_what_it_writes():
+    circle = krawl.system(["x**2 + y**2 - a", "x*y = 1"], parameters={"a": 4})
+    found = krawl.complex(circle, digits=20)
+    assert found.status == "complete" and len(found["solutions"]) == 4 and found.code == 0
+    assert {"1.9318516525781365735"} <= {one["numbers"]["x"] for one in found["digits"]}
+    assert len(krawl.complete(circle, within=["x=0..2"]).solutions) == 2
+    boxed = krawl.system(["x**2 + y**2 - 4", "x*y - 1"], {"x": (0, 2), "y": 0.5})
+    assert len(krawl.complete(boxed).solutions) == 2
+    assert "2*u1*u2" in krawl.export(boxed, "msolve")
+    assert "2, for 2 unknowns" in krawl.check(boxed)
+    limits = krawl.limits(PLATE, only="C-D")
+    assert limits.data["verb"] == "limits"
+    assert "<svg" in krawl.solve(OCTAHEDRON)._repr_svg_()
+    assert krawl.complete(boxed)._repr_html_().startswith("<iframe")
+    swept = krawl.sweep(PLATE, vary="C-D", from_=49.5, to=48, frames=3)
+    assert len(swept["frames"]) == 3
+    assert krawl.tolerance(PLATE, default=0.1).data["verb"] == "tolerance"
+    with pytest.raises(krawl.Error, match="no unknown `z`"):
+        krawl.complete(boxed, within="z=0..1")
+    with pytest.raises(krawl.Error, match="unexpected argument"):
+        krawl.limits(PLATE, nothing=1)
+
+
+def test_sympy_expressions_are_equations():
+    sympy = pytest.importorskip("sympy")
+    x, y = sympy.symbols("x y")
+    both = krawl.system([sympy.Eq(x**2 + y**2, 4), x * y - 1])
+    assert len(krawl.complete(both).solutions) == 4

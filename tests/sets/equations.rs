@@ -559,3 +559,121 @@ fn single_roots_are_no_curve() {
         }
     }
 }
+
+/// Circle and hyperbola have ±x and ±1/x; in a range of x those that lie in it, as closed as it is written.
+#[test]
+fn solutions_in_ranges_are_those_of_all_that_lie_in_them() {
+    let curves = |x: &str, y: &str| {
+        read(&format!(
+            "equations = [\"x^2 + y^2 = 4\", \"x*y = 1\"]\n[unknowns]\nx = {x}\ny = {y}\n"
+        ))
+    };
+    let (everywhere, _) = real(&curves("1.2", "0.5"));
+    assert_eq!(everywhere.len(), 4);
+    for (x, y, low, high) in [
+        ("[0, 2]", "0.5", 0.0, 2.0),
+        ("{ value = 7, within = [-1, 1] }", "0.5", -1.0, 1.0),
+        (
+            "[-inf, -0.6]",
+            "{ within = [-9, inf] }",
+            f64::NEG_INFINITY,
+            -0.6,
+        ),
+        ("[0.51, 0.52]", "0.5", 0.51, 0.52),
+        ("[3, 4]", "0.5", 3.0, 4.0),
+    ] {
+        let problem = curves(x, y);
+        // Written and read again it is the same.
+        assert_eq!(read(&problem.to_toml()).objects, problem.objects);
+        let (found, is_complete) = real(&problem);
+        let wanted = everywhere
+            .iter()
+            .filter(|one| (low..=high).contains(&one[0]));
+        assert!(
+            is_complete && found.len() == wanted.count(),
+            "{x}: {found:?}"
+        );
+        assert!(
+            found.iter().all(|one| (low..=high).contains(&one[0])),
+            "{x}"
+        );
+    }
+    // At the very end of a range: within where that is certain, undecided where it is not.
+    let ends = |equation: &str, x: &str| {
+        let text = format!("equations = [\"{equation}\"]\n[unknowns]\nx = {x}\n");
+        all(&read(&text), &Options::default()).unwrap()
+    };
+    let exact = ends("x^2 = 4", "[2, 3]");
+    assert!(exact.status == Status::Complete && exact.solutions.len() == 1);
+    let open = ends("x^3 = 0.001", "[0.1, 3]");
+    assert!(open.status == Status::Partial && open.solutions.is_empty());
+    assert_eq!(open.undecided[0].why, krawl::complete::Why::Border);
+}
+
+/// The real ones of all complex solutions are told in ranges, too.
+#[test]
+fn katsura_5_in_a_range() {
+    let mut problem = Problem::read("docs/examples/katsura-5.toml").unwrap();
+    let name = problem.objects[0].name.clone();
+    let (everywhere, _) = real(&problem);
+    let [zero, third] = ["0", "0.3"].map(|x| Some(x.parse().unwrap()));
+    problem.restrict(&name, [zero, third]).unwrap();
+    let (found, is_complete) = real(&problem);
+    let wanted = everywhere
+        .iter()
+        .filter(|one| (0.0..=0.3).contains(&one[0]));
+    assert!(is_complete && found.len() == wanted.count());
+}
+
+/// Noon-4 has solutions at infinity, and 73 others of which 15 are real: a search of boxes counts them.
+#[test]
+fn noon_4_is_complete() {
+    let equation = |i: usize| {
+        let squares = (1..5).filter(|&j| j != i).map(|j| format!("x{j}^2"));
+        let squares = squares.collect::<Vec<_>>().join(" + ");
+        format!("\"x{i}*({squares}) - 1.1*x{i} + 1\"")
+    };
+    let equations = (1..5).map(equation).collect::<Vec<_>>().join(", ");
+    let text =
+        format!("equations = [{equations}]\n[unknowns]\nx1 = 0.3\nx2 = 0.7\nx3 = 1\nx4 = 0.4\n");
+    let (found, is_complete) = real(&read(&text));
+    assert!(is_complete, "{} found", found.len());
+    assert_eq!(found.len(), 15);
+}
+
+/// Complex solutions to many digits: the roots of x⁴ = −4, and those of x² = 2.
+#[test]
+fn complex_solutions_are_told_to_many_digits() {
+    use krawl::complex::{Filling, Nature, Template, fill, lower, solve};
+    let told = |equation: &str| -> Vec<String> {
+        let problem = read(&format!(
+            "equations = [\"{equation}\"]\n[unknowns]\nx = 1\n"
+        ));
+        let lowered = lower(&problem).unwrap();
+        let fibre = fill(&lowered.system, &Filling::default()).unwrap();
+        let found = solve(
+            &lowered,
+            &Template::new("roots", fibre),
+            &Default::default(),
+        );
+        let both = found.boxes.boxes().iter().zip(&found.natures);
+        let both = both.map(|(one, nature)| {
+            let is_real = *nature == Nature::Real;
+            let digits =
+                krawl::digits::complex_to_digits((&problem, &lowered), one, is_real, 30).unwrap();
+            digits.numbers[0].1.clone()
+        });
+        let mut all: Vec<String> = both.collect();
+        all.sort();
+        all
+    };
+    let one = "1.00000000000000000000000000000";
+    let mut wanted = vec![];
+    for (re, im) in [("", "+"), ("", "-"), ("-", "+"), ("-", "-")] {
+        wanted.push(format!("{re}{one} {im} {one}i"));
+    }
+    wanted.sort();
+    assert_eq!(told("x^4 = -4"), wanted);
+    let root = "1.41421356237309504880168872421";
+    assert_eq!(told("x^2 = 2"), [format!("-{root}"), root.to_owned()]);
+}

@@ -21,8 +21,24 @@ Every box is given as two arrays, `lower` and `upper`, whose floats enclose the 
 
 from ._krawl import Error, __version__
 from ._problem import system
-from ._results import Complete, Edited, Figure, Motion, Run, Solution, Verdict
-from ._verbs import Session, complete, drag, edit, motion, solve, verify
+from ._results import Complete, Edited, Figure, Motion, Result, Run, Solution, Verdict
+from ._verbs import (
+    Session,
+    check,
+    compare,
+    complete,
+    complex,
+    drag,
+    edit,
+    explore,
+    export,
+    limits,
+    motion,
+    solve,
+    sweep,
+    tolerance,
+    verify,
+)
 
 __all__ = [
     "Complete",
@@ -30,16 +46,25 @@ __all__ = [
     "Error",
     "Figure",
     "Motion",
+    "Result",
     "Run",
     "Session",
     "Solution",
     "Verdict",
     "__version__",
+    "check",
+    "compare",
     "complete",
+    "complex",
     "drag",
     "edit",
+    "explore",
+    "export",
+    "limits",
     "motion",
     "solve",
+    "sweep",
     "system",
+    "tolerance",
     "verify",
 ]

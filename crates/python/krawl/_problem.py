@@ -6,6 +6,7 @@ import decimal
 import json
 import numbers
 import os
+import re
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -29,7 +30,7 @@ def text_and_name(problem: Any) -> tuple[str, str]:
 
 def system(
     equations: Any,
-    unknowns: Mapping[str, Any],
+    unknowns: Mapping[str, Any] | None = None,
     parameters: Mapping[str, Any] | None = None,
     *,
     name: str = "system",
@@ -37,7 +38,8 @@ def system(
     """A problem of unknown numbers and equations of one's own, which every verb takes (docs/using/algebra.md).
 
     `equations`: texts such as ``"x**2 + y**2 = a"``, or what SymPy has: expressions that are to be zero, and ``Eq``.
-    `unknowns`: for each its value in the sketch, where a path begins.
+    `unknowns`: for each its value in the sketch, where a path begins, or between which numbers it is sought, ``(0, 2)``. Left out, they
+    are all names in the equations that are no parameters.
     `parameters`: for each its value, or ``{"value": 4, "from": 2.5}`` for one that the path leads from elsewhere.
 
     >>> import krawl
@@ -50,9 +52,15 @@ def system(
         sides = [getattr(equation, side, None) for side in ("lhs", "rhs")]
         return str(equation) if None in sides else f"{sides[0]} = {sides[1]}"
 
+    texts = [text(equation) for equation in equations]
+    if unknowns is None:
+        found = re.findall(r"(?<![\w.])[^\W\d]\w*", " ".join(texts))
+        known = {"sqrt", *map(str, parameters or {})}
+        names = [one for one in dict.fromkeys(found) if one not in known]
+        unknowns = {one: (31 + 37 * k % 100) / 100 for k, one in enumerate(names)}
     problem = {
         "name": name,
-        "equations": [text(equation) for equation in equations],
+        "equations": texts,
         "unknowns": {str(unknown): value for unknown, value in unknowns.items()},
     }
     if parameters:

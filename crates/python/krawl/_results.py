@@ -2,10 +2,55 @@
 
 from __future__ import annotations
 
+import html
+import json
+import os
+import tempfile
 from dataclasses import dataclass, field
 from typing import Any, Optional
 
 import numpy as np
+
+from . import _krawl
+
+
+class Shown:
+    """A result that notebooks show as `krawl show` draws it, where there is something to draw."""
+
+    data: dict
+
+    def _repr_html_(self) -> Optional[str]:
+        page = self._drawn("--html")
+        return page and f'<iframe srcdoc="{html.escape(page)}" width="100%" height="600"></iframe>'
+
+    def _repr_svg_(self) -> Optional[str]:
+        return self._drawn("--svg")
+
+    def _drawn(self, how: str) -> Optional[str]:
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "result.json")
+            with open(path, "w", encoding="utf-8") as file:
+                json.dump(self.data, file)
+            code, output, _ = _krawl.call(["show", path, how, "-"])
+        return output if code == 0 and output else None
+
+
+@dataclass(frozen=True)
+class Result(Shown):
+    """What a verb of the command line gives: its JSON (docs/using/programs.md), whose keys are this one's, too."""
+
+    data: dict = field(repr=False)
+    #: The exit code: 0 done, others as the verb's help says.
+    code: int
+    #: What it would print on standard error.
+    messages: str = ""
+
+    @property
+    def status(self) -> Optional[str]:
+        return self.data.get("status")
+
+    def __getitem__(self, key: str) -> Any:
+        return self.data[key]
 
 
 def _joints(objects: dict) -> dict:
@@ -67,7 +112,7 @@ class Solution(Figure):
 
 
 @dataclass(frozen=True)
-class Run:
+class Run(Shown):
     """What following the path through the sketch gave."""
 
     #: "closed", "open" or "stopped".
@@ -104,7 +149,7 @@ class Run:
 
 
 @dataclass(frozen=True)
-class Complete:
+class Complete(Shown):
     """All figures with the dimensions."""
 
     #: "complete": there is no other. "partial": parts are undecided. "flexible": there is a curve of them.
@@ -164,7 +209,7 @@ class Edited:
 
 
 @dataclass(frozen=True)
-class Motion:
+class Motion(Shown):
     """How a linkage moves."""
 
     #: "closed" of a loop, "open" of a way between two ends, "stopped" if it was followed only so far.

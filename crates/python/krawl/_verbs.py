@@ -1,9 +1,10 @@
-"""The verbs: solve, edit, drag, motion, complete, verify."""
+"""The verbs, as functions."""
 
 from __future__ import annotations
 
 import json
 import os
+import tempfile
 from collections.abc import Iterable, Mapping
 from typing import Any, Callable, Optional
 
@@ -12,7 +13,7 @@ import numpy as np
 from . import _krawl
 from ._krawl import Error
 from ._problem import text_and_name
-from ._results import Complete, Edited, Figure, Motion, Run, Solution, Verdict, figure
+from ._results import Complete, Edited, Figure, Motion, Result, Run, Solution, Verdict, figure
 
 
 def solve(
@@ -61,6 +62,7 @@ def complete(
     time: Optional[float] = None,
     certificate: Any = None,
     progress: Optional[Callable[[float, int], Any]] = None,
+    **options: Any,
 ) -> Complete:
     """All figures with the dimensions, up to motions and reflections, and the proof that there is no other.
 
@@ -68,12 +70,17 @@ def complete(
     time: ends the search after so many seconds; what is proved by then is kept.
     certificate: where to leave the proof, for `verify`.
     progress: called now and then with the share of the search that is done, and the number of its parts.
+    options: of `krawl all`, such as ``within="x=0..2"`` and ``digits=50``; then nobody is told of progress.
     """
-    text, name = text_and_name(problem)
-    answer = _krawl.complete_set(
-        text, name, threads=threads, time=time, certificate=_beside(problem, certificate), progress=progress
-    )
-    data = json.loads(answer)
+    cert = _beside(problem, certificate)
+    if options:
+        data = _told("all", problem, dict(options, threads=threads or None, time=time, cert=cert)).data
+    else:
+        text, name = text_and_name(problem)
+        answer = _krawl.complete_set(
+            text, name, threads=threads, time=time, certificate=cert, progress=progress
+        )
+        data = json.loads(answer)
     return Complete(data["status"], _solutions(data, None), data)
 
 
@@ -91,6 +98,53 @@ def motion(problem: Any, *, free: Iterable[str] = (), measure: Iterable[str] = (
             bounds[measured["name"]] = (measured["least"]["value"][0], measured["greatest"]["value"][1])
     turns = {measured["name"]: measured["turns"] for measured in data["measured"] if "turns" in measured}
     return Motion(data["status"], data["words"], bounds, turns, data)
+
+
+def complex(problem: Any, **options: Any) -> Result:
+    """All complex solutions: ``krawl.complex(system, digits=30)["solutions"]``.
+
+    Options of this function and of those that follow are those of the command line, with ``_`` in place of ``-`` (and behind it
+    where Python has the word for itself: ``from_``): a list for one that is given several times, a dictionary for `set`, ``True``
+    for one without a value.
+    """
+    return _told("complex", problem, options)
+
+
+def limits(problem: Any, **options: Any) -> Result:
+    """How far each dimension can go: ``krawl.limits("plate.toml", only="C-D")["ranges"]``."""
+    return _told("limits", problem, options)
+
+
+def sweep(problem: Any, **options: Any) -> Result:
+    """A dimension through a range, frame by frame: ``krawl.sweep("bars.toml", vary="A-B", from_=1, to=2)["frames"]``."""
+    return _told("sweep", problem, options)
+
+
+def tolerance(problem: Any, **options: Any) -> Result:
+    """What tolerances add up to: ``krawl.tolerance("plate.toml", default=0.1, measure="B-E")["measured"]``."""
+    return _told("tolerance", problem, options)
+
+
+def explore(problem: Any, **options: Any) -> Result:
+    """More figures from new sketches: ``krawl.explore("k33.toml", store="parts", time=60)``."""
+    return _told("explore", problem, options)
+
+
+def compare(problem: Any, **options: Any) -> Result:
+    """All modes and spaces beside each other, timed and judged."""
+    return _told("compare", problem, options)
+
+
+def check(problem: Any, **options: Any) -> str:
+    """What was understood, what is missing or too much, in words."""
+    _, output, _ = _called("check", problem, options)
+    return output
+
+
+def export(problem: Any, to: str, **options: Any) -> str:
+    """The equations for another program: ``krawl.export(system, "msolve")``."""
+    _, output, _ = _called("export", problem, dict(options, to=to))
+    return output
 
 
 def verify(certificate: Any, problem: Any = None) -> Verdict:
@@ -174,3 +228,41 @@ def _number(value: Any) -> str:
     if hasattr(value, "tolist"):
         value = value.tolist()
     return repr(value) if isinstance(value, float) else str(value)
+
+
+def _told(verb: str, problem: Any, options: Mapping) -> Result:
+    """What a verb of the command line writes as JSON."""
+    code, output, messages = _called(verb, problem, dict(options, json="-"))
+    return Result(json.loads(output), code, messages)
+
+
+def _called(verb: str, problem: Any, options: Mapping) -> tuple[int, str, str]:
+    """Runs a verb as the command line does. What it refuses is an error."""
+    with tempfile.TemporaryDirectory() as folder:
+        if isinstance(problem, Mapping):
+            text, name = text_and_name(problem)
+            path = os.path.join(folder, "problem.toml")
+            with open(path, "w", encoding="utf-8") as file:
+                file.write(text)
+        elif isinstance(problem, (str, os.PathLike)):
+            name = path = os.fspath(problem)
+        else:
+            text_and_name(problem)
+        code, output, messages = _krawl.call([verb, path, *_words(options)])
+    messages = messages.replace(path, name).strip()
+    if not output:
+        raise Error(messages)
+    return code, output, messages
+
+
+def _words(options: Mapping) -> Iterable[str]:
+    """Options as the command line has them."""
+    for key, value in options.items():
+        flag = "--" + key.strip("_").replace("_", "-")
+        if isinstance(value, Mapping):
+            value = [f"{name}={_number(one)}" for name, one in value.items()]
+        for one in value if isinstance(value, (list, tuple)) else [value]:
+            if one is True:
+                yield flag
+            elif one is not None and one is not False:
+                yield f"{flag}={os.fspath(one) if isinstance(one, os.PathLike) else _number(one)}"

@@ -20,7 +20,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
-use work::{call, interruptible};
+use work::{interruptible, interruptible_by, tell};
 
 create_exception!(
     krawl,
@@ -103,7 +103,7 @@ fn solve(
     });
     let mut proof = proof.transpose()?;
     let work = |cancel: &_| -> PyResult<String> {
-        let mut show = |now: Progress| call(&progress, (now.steps, now.t, now.solutions));
+        let mut show = |now: Progress| tell(&progress, (now.steps, now.t, now.solutions));
         let mut control = Control {
             progress: progress.is_some().then_some(&mut show),
             witness: proof.as_mut().map(|writer| writer as &mut dyn Witness),
@@ -154,7 +154,7 @@ fn complete_set(
         })
         .transpose()?;
     let result = interruptible(py, |cancel: &_| {
-        let show = |now: complete::Progress| call(&progress, (now.share, now.boxes));
+        let show = |now: complete::Progress| tell(&progress, (now.share, now.boxes));
         let options = complete::Options {
             cancel: Some(cancel),
             time,
@@ -194,6 +194,15 @@ fn motion(
         )
     })?;
     Ok(Document::motion(&found.map_err(bad)?).to_json())
+}
+
+/// Runs a verb with the arguments of the command line: its exit code, and what it would print on standard output and on standard
+/// error.
+#[pyfunction]
+fn call(py: Python<'_>, arguments: Vec<String>) -> PyResult<(u8, String, String)> {
+    let run = || krawl::cli::call(&arguments);
+    let called = interruptible_by(py, krawl::cli::end_call, run)?;
+    Ok((called.code, called.output, called.messages))
 }
 
 /// Checks a certificate: what came of it ("verified", "refuted", "not proved", "incomplete"), in words, and
@@ -319,6 +328,7 @@ fn _krawl(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(solve, module)?)?;
     module.add_function(wrap_pyfunction!(complete_set, module)?)?;
     module.add_function(wrap_pyfunction!(motion, module)?)?;
+    module.add_function(wrap_pyfunction!(call, module)?)?;
     module.add_function(wrap_pyfunction!(verify, module)?)?;
     module.add_class::<Session>()
 }

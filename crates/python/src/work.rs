@@ -16,12 +16,21 @@ pub fn interruptible<T: Send>(
     work: impl FnOnce(&AtomicBool) -> T + Send,
 ) -> PyResult<T> {
     let cancel = AtomicBool::new(false);
+    let end = || cancel.store(true, Ordering::Relaxed);
+    interruptible_by(py, end, || work(&cancel))
+}
+
+/// The same of work that is asked for its end by `end`.
+pub fn interruptible_by<T: Send>(
+    py: Python<'_>,
+    end: impl Fn() + Sync,
+    work: impl FnOnce() -> T + Send,
+) -> PyResult<T> {
     py.detach(|| {
         std::thread::scope(|scope| {
             let (done, wait) = channel();
-            let cancel = &cancel;
             let worker = scope.spawn(move || {
-                let result = work(cancel);
+                let result = work();
                 // Whoever waits has not gone: it ends with this scope.
                 let _ = done.send(());
                 result
@@ -30,7 +39,7 @@ pub fn interruptible<T: Send>(
             while let Err(RecvTimeoutError::Timeout) = wait.recv_timeout(PAUSE) {
                 if let Err(error) = Python::attach(|py| py.check_signals()) {
                     interrupt = Err(error);
-                    cancel.store(true, Ordering::Relaxed);
+                    end();
                 }
             }
             let result = worker.join();
@@ -41,7 +50,7 @@ pub fn interruptible<T: Send>(
 }
 
 /// Calls back, if there is somebody to call. What goes wrong there is printed, and the work goes on.
-pub fn call<A>(to: &Option<Py<PyAny>>, arguments: A)
+pub fn tell<A>(to: &Option<Py<PyAny>>, arguments: A)
 where
     A: for<'py> PyCallArgs<'py>,
 {

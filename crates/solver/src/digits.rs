@@ -18,12 +18,13 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+use crate::complex::{Lowered, SolutionBox};
 use crate::elimination::invert;
 use crate::interval::{Ball, Interval, enclose_rational, point};
 use crate::order::each_once;
 use crate::problem::{Decimal, Problem, Shape};
 use crate::rational::Rational;
-use crate::system::{Homotopy, Located};
+use crate::system::{Homotopy, Located, Right};
 use num_bigint::BigInt;
 
 /// More digits are not told: right-hand sides that are no ratios are known to some more.
@@ -37,6 +38,8 @@ const STEPS: usize = 40;
 
 const NOT_SQUARE: &str =
     "there are not as many equations as unknowns there: constraints were left out of the search";
+const DEPENDENT: &str = "the equations are nearly dependent there";
+const UNKNOWN: &str = "it is not known to so many digits";
 const NOT_IN_ITS_BOX: &str = "it is not proved that the figure found lies in the solution's box, which is narrower than what is known of it, \
                               or holds another one";
 
@@ -83,12 +86,7 @@ pub fn to_digits(
     let told = numbers.iter().map(|&(_, i, _)| i);
     let (x, behind) = to_all_digits(&homotopy, near, told, digits)?;
     // The box of the solution holds it.
-    let is_in = |i: usize, known: Interval| {
-        let [low, high] = [known.inf(), known.sup()].map(Rational::from_float);
-        let Ball { middle, radius } = &x[i];
-        low.is_none_or(|low| low <= middle - radius)
-            && high.is_none_or(|high| middle + radius <= high)
-    };
+    let is_in = |i: usize, known: Interval| lies_in(&x[i], known);
     let coordinates = points.iter().enumerate();
     let mut coordinates =
         coordinates.flat_map(|(p, at)| (0..problem.dimension).map(move |k| (p, k, at[k])));
@@ -136,8 +134,8 @@ fn to_all_digits(
     let ten = Rational::from_integer(10.into());
     let mut bits = LEAST_BITS.max(i64::from(digits) * 10 / 3 + 40);
     loop {
-        let found =
-            refined(homotopy, &near, bits).ok_or("the equations are nearly dependent there")?;
+        let rights = homotopy.rights.iter().map(Right::ball_at_target).collect();
+        let found = refined(homotopy, rights, &near, bits).ok_or(DEPENDENT)?;
         let scaled = found.into_iter().enumerate().map(|(i, x)| {
             let unit = unit.pow(homotopy.power(i));
             Ball {
@@ -164,9 +162,89 @@ fn to_all_digits(
         }
         bits *= 2;
         if bits > MOST_BITS {
-            return Err("it is not known to so many digits".to_owned());
+            return Err(UNKNOWN.to_owned());
         }
     }
+}
+
+/// A complex solution to so many digits, each number with as many as the larger of its real and imaginary part; the real part alone of one that `is_real`,
+/// proved.
+///
+/// # Errors
+/// In words, why it is not told.
+pub fn complex_to_digits(
+    (problem, lowered): (&Problem, &Lowered),
+    one: &SolutionBox,
+    is_real: bool,
+    digits: u32,
+) -> Result<Digits, String> {
+    let system = &lowered.system;
+    let homotopy = system.homotopy();
+    let unit = Rational::from_float(system.unit).expect("a power of two");
+    let half = Rational::new(1.into(), 2.into());
+    let ten = Rational::from_integer(10.into());
+    let mut bits = LEAST_BITS.max(i64::from(digits) * 10 / 3 + 40);
+    loop {
+        let rights = system.target().into_iter().flatten();
+        let rights = rights.map(|part| part.ball()).collect();
+        let found = refined(&homotopy, rights, &one.figure.centre, bits).ok_or(DEPENDENT)?;
+        if !found
+            .iter()
+            .zip(&one.parts)
+            .all(|(ball, &known)| lies_in(ball, known))
+        {
+            return Err(NOT_IN_ITS_BOX.to_owned());
+        }
+        let told = |unknown: usize| {
+            let unit = unit.pow(system.unknowns[unknown].power);
+            let [re, im] = [0, 1].map(|part| &found[2 * unknown + part]);
+            let radius = (if re.radius < im.radius { im } else { re }).radius.clone() * &unit;
+            let [re, im] = [re, im].map(|part| &part.middle * &unit);
+            let im = if is_real { Rational::zero() } else { im };
+            let size = if re.abs() < im.abs() {
+                im.abs()
+            } else {
+                re.abs()
+            };
+            let behind = digits as i32 - places(&size);
+            let is_known = radius <= &half * ten.pow(-behind.max(0));
+            let sign = if im.is_negative() { '-' } else { '+' };
+            (is_known && !(size.is_zero() && !radius.is_zero())).then(|| match is_real {
+                true => written(&re, behind),
+                false => format!(
+                    "{} {sign} {}i",
+                    written(&re, behind),
+                    written(&im.abs(), behind)
+                ),
+            })
+        };
+        let of_point = |place: &[Option<usize>; 3]| -> Option<Vec<String>> {
+            let axes = place.iter().take(problem.dimension);
+            axes.map(|axis| axis.map_or(Some("0".to_owned()), told))
+                .collect()
+        };
+        let points: Option<_> = system.points.iter().map(of_point).collect();
+        // What people named.
+        let own = system.unknowns.iter().enumerate();
+        let own = own.filter(|(_, unknown)| {
+            let mut objects = problem.objects.iter();
+            objects.any(|object| object.name == unknown.name)
+        });
+        let numbers = own.map(|(u, unknown)| Some((unknown.name.clone(), told(u)?)));
+        if let (Some(points), Some(numbers)) = (points, numbers.collect()) {
+            return Ok(Digits { points, numbers });
+        }
+        bits *= 2;
+        if bits > MOST_BITS {
+            return Err(UNKNOWN.to_owned());
+        }
+    }
+}
+
+/// Whether all that a number may be is in its range.
+fn lies_in(Ball { middle, radius }: &Ball, known: Interval) -> bool {
+    let [low, high] = [known.inf(), known.sup()].map(Rational::from_float);
+    low.is_none_or(|low| low <= middle - radius) && high.is_none_or(|high| middle + radius <= high)
 }
 
 /// The middle of a range, as it is written.
@@ -186,7 +264,7 @@ pub(crate) fn drawn(
     }
     for (object, located) in drawn.objects.iter_mut().zip(objects) {
         match (&mut object.shape, located.number()) {
-            (Shape::Number { sketch }, Some(number)) => *sketch = middle(number),
+            (Shape::Number { sketch, .. }, Some(number)) => *sketch = middle(number),
             (Shape::Round { radius, .. }, Some(number)) => *radius = middle(number),
             // What is told by points.
             (Shape::Line(_) | Shape::Plane(_) | Shape::Arc { .. }, _) => {}
@@ -202,16 +280,11 @@ pub(crate) fn drawn(
     Ok(drawn)
 }
 
-/// A zero of the equations at t = 1 near some numbers, in the homotopy's unit, each unknown known to about 2 to minus `bits`: exactly one zero
+/// A zero of the equations with these right-hand sides near some numbers, in the homotopy's unit, each unknown known to about 2 to minus `bits`: exactly one zero
 /// is as near as that. `None`: that is not proved, or not so well.
-fn refined(homotopy: &Homotopy, near: &[f64], bits: i64) -> Option<Vec<Ball>> {
+fn refined(homotopy: &Homotopy, rights: Vec<Ball>, near: &[f64], bits: i64) -> Option<Vec<Ball>> {
     let m = homotopy.equations;
     let terms: Vec<_> = (0..m).map(|e| homotopy.terms(e)).collect();
-    let rights: Vec<_> = homotopy
-        .rights
-        .iter()
-        .map(|right| right.ball_at_target())
-        .collect();
     let jacobian = |at: &dyn Fn(usize) -> Interval| -> Vec<Vec<Interval>> {
         (0..m).map(|e| homotopy.slopes(e, at)).collect()
     };

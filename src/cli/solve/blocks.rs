@@ -193,7 +193,7 @@ impl Arguments {
         }
         let certificate = match self.cert {
             Some(_) => {
-                " The certificate has what was proved of the path of the whole; of the figures below it says nothing."
+                " The certificate has what was proved of the path of the whole, whose exit code is told; of the figures below it says nothing (that of `krawl all` has all solutions)."
             }
             None => "",
         };

@@ -7,7 +7,7 @@ use super::{
 use crate::blocks::{Account, LeftOut};
 use crate::complete::{self, Choice, Complete, Constructed, Searched, Tested};
 use crate::problem::Problem;
-use crate::report::complete::{figure, made_in_words, verdict, why};
+use crate::report::complete::{complete_in_words, figure, made_in_words, why};
 use crate::track::Solution;
 
 keys! {
@@ -18,7 +18,7 @@ keys! {
         /// Why there is none, or what stands in the way of a claim.
         reason: Option<String> = result.reason.clone(),
         /// What is proved.
-        verdict: String = format!("{} {}", verdict(problem, result), made_in_words(made)).trim_end().into(),
+        verdict: String = format!("{} {}", complete_in_words(problem, result), made_in_words(made)).trim_end().into(),
         /// How they were searched.
         method: String = result.method.name().into(),
         /// How many there are.

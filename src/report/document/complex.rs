@@ -1,6 +1,6 @@
 //! What `krawl complex` writes.
 
-use super::{Bounds, JSON_VERSION, Named, all, names};
+use super::{Bounds, JSON_VERSION, ManyDigits, Named, all, names};
 use crate::complex::infinity::Departure;
 use crate::complex::{Bound, Counts, Lowered, Nature, SolutionBox, Solutions};
 use crate::interval::Interval;
@@ -55,6 +55,10 @@ keys! {
         solutions: Vec<ComplexFigure> = all(result.boxes.boxes().iter().zip(&result.natures), |(one, nature)| {
             ComplexFigure::new(problem, lowered, one, *nature)
         }),
+    }
+    or nothing {
+        /// Each solution to many digits.
+        digits: Option<Vec<ManyDigits>> = None,
     }
 }
 

@@ -142,7 +142,7 @@ impl At<f64> {
             } => Located::posed(pose),
             // What it measures there the sketch does not say.
             Shape::Body { .. } | Shape::Joint { .. } => Located::Body,
-            Shape::Number { sketch } => Located::Number(enclose(sketch)),
+            Shape::Number { sketch, .. } => Located::Number(enclose(sketch)),
         });
         let objects: Vec<Located> = objects.collect();
         At::all(problem, &objects, middle)

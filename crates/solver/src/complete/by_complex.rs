@@ -67,9 +67,13 @@ pub(super) fn all(problem: &Problem, options: &Options) -> Option<Result<Complet
     let is_cancelled = || options.cancel.is_some_and(|c| c.load(Ordering::Relaxed));
     let mut result = match real {
         Some((solutions, count)) => Complete {
-            reason: solutions
-                .is_empty()
-                .then(|| "none of the complex solutions is real".to_owned()),
+            reason: solutions.is_empty().then(|| {
+                match problem.objects.iter().any(|of| of.shape.range().is_some()) {
+                    true => "none of the complex solutions is real and in these ranges",
+                    false => "none of the complex solutions is real",
+                }
+                .to_owned()
+            }),
             method: Method::Complex,
             symmetry: first.symmetry,
             driving: first.driving,
@@ -128,12 +132,14 @@ fn real(
     Some((near.collect(), found.boxes.len()))
 }
 
-/// The zeros near points, each proved and all different; `None` where that cannot be proved, or where zeros need not be solutions.
+/// The zeros near points that are in the ranges of all unknowns, each proved and all different; `None` where that cannot be proved, or where zeros need not
+/// be solutions.
 fn proved_near(problem: &Problem, near: &[Vec<f64>]) -> Option<Vec<Solution>> {
     let homotopy = Homotopy::new(problem).ok()?;
     if !homotopy.positive_unknowns().is_empty() || !homotopy.nonzero_vectors().is_empty() {
         return None;
     }
+    let held = homotopy.held(problem).ok()?;
     let mut found: Vec<FigureBox> = Vec::with_capacity(near.len());
     for near in near {
         let one = prove_figure(&homotopy, near, false).ok()?;
@@ -143,5 +149,15 @@ fn proved_near(problem: &Problem, near: &[Vec<f64>]) -> Option<Vec<Solution>> {
         }
         found.push(one);
     }
+    // All of them are compared, also where a range has a few.
+    let is_in = |one: &FigureBox| {
+        let mut held = held.iter();
+        held.try_fold(true, |all, held| {
+            Some(all & held.admits(one.figure.enclosure(held.unknown))?)
+        })
+    };
+    let is_in: Vec<bool> = found.iter().map(is_in).collect::<Option<_>>()?;
+    let mut is_in = is_in.into_iter();
+    found.retain(|_| is_in.next().unwrap_or(true));
     Some(coordinates::solutions(&homotopy, &found))
 }

@@ -36,6 +36,8 @@ pub enum Why {
     Sign,
     /// Whether a figure has a vector that must not vanish, or a length that must be positive, is not certain.
     Vanishing,
+    /// A solution at the end of a range that an unknown is to be in, or so near to it that it may be out of it.
+    Border,
 }
 
 /// What visits find.

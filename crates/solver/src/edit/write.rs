@@ -5,8 +5,8 @@ use crate::constraint::{Arguments, LineName, is_opposite_nearer};
 use crate::interval::{Interval, Real};
 use crate::order::InOrder;
 use crate::places::Each as _;
-use crate::problem::{Constraint, Decimal, Problem, Target};
-use crate::problem::{said_with_limits, toml_number, toml_with_limits};
+use crate::problem::{Constraint, Decimal, Problem, Shape, Target};
+use crate::problem::{said_with_limits, toml_number, toml_unknown, toml_with_limits};
 use crate::rational::Rational;
 use crate::system::Located;
 use num_bigint::BigInt;
@@ -83,8 +83,21 @@ pub fn rewrite(
         };
         for (object, located) in problem.objects.iter().zip(objects) {
             let item = all.get(&object.name);
-            let value = match key {
-                "unknowns" => item.and_then(Item::as_value),
+            let own = item.and_then(Item::as_value);
+            let parts = own.and_then(Value::as_inline_table);
+            let value = match (key, &object.shape) {
+                ("unknowns", Shape::Number { within, .. }) => {
+                    // One that is written as a range has no value yet.
+                    if let (Some(value), None, Some(number)) = (
+                        own.filter(|own| parts.is_some() || own.is_array()),
+                        parts.and_then(|parts| parts.get("value")),
+                        located.number(),
+                    ) {
+                        put(value, toml_unknown(float(number.mid()), within))?;
+                        continue;
+                    }
+                    parts.map_or(own, |parts| parts.get("value"))
+                }
                 _ => item.and_then(|round| round.as_inline_table()?.get("radius")),
             };
             if let (Some(value), Some(number)) = (value, located.number()) {

@@ -307,7 +307,7 @@ impl Lowering<'_> {
                 }
                 return Ok(());
             }
-            Shape::Number { sketch } => {
+            Shape::Number { sketch, .. } => {
                 let at = Real::from(sketch.value().clone());
                 vec![self.scalar(name, 0, Parity::Even, at)]
             }

@@ -4,8 +4,8 @@ use super::builder::{Number, Numeral, ProblemBuilder, check_name, number};
 use super::error::{MAX_NAME, Place, did_you_mean};
 use super::formula;
 use super::{
-    AXES, Constraint, Decimal, DecimalError, Item, JointSort, Object, Point, Pose, ProblemError,
-    Shape,
+    AXES, Constraint, Decimal, DecimalError, Item, JointSort, Object, Point, Pose, Problem,
+    ProblemError, Shape,
 };
 use crate::constraint::{self, EQUATIONS, KINDS};
 use crate::order::InOrder;
@@ -29,7 +29,7 @@ pub(super) enum DraftShape {
     Arc([String; 3]),
     Body(Vec<(String, Vec<Number>)>),
     Joint(JointSort, [String; 2], Box<[Pose; 2]>),
-    Number(Number),
+    Number(Number, [Option<Number>; 2]),
 }
 
 impl DraftShape {
@@ -43,7 +43,7 @@ impl DraftShape {
             Self::Arc(_) => ("arc", Some(2)),
             Self::Body(_) => ("body", None),
             Self::Joint(..) => ("joint", None),
-            Self::Number(_) => ("unknown", None),
+            Self::Number(..) => ("unknown", None),
         }
     }
 }
@@ -148,7 +148,28 @@ impl ProblemBuilder {
     /// assert_eq!(problem.objects.len(), 2);
     /// ```
     pub fn unknown<N: Numeral>(self, name: &str, sketch: N) -> Self {
-        self.object(name, DraftShape::Number(number(sketch)))
+        self.object(name, DraftShape::Number(number(sketch), [None, None]))
+    }
+
+    /// The same of a number of which `all` seeks the solutions between two others, either of which may be left out.
+    ///
+    /// ```
+    /// use krawl::complete::{Options, all};
+    /// use krawl::problem::Problem;
+    /// let problem = Problem::build("roots", 2)
+    ///     .unknown_within("x", 1, [Some("0"), None])
+    ///     .equation("x^2 = 2")
+    ///     .finish().unwrap();
+    /// assert_eq!(all(&problem, &Options::default()).unwrap().solutions.len(), 1);
+    /// ```
+    pub fn unknown_within<N: Numeral, E: Numeral>(
+        self,
+        name: &str,
+        sketch: N,
+        ends: [Option<E>; 2],
+    ) -> Self {
+        let ends = ends.map(|end| end.map(number));
+        self.object(name, DraftShape::Number(number(sketch), ends))
     }
 
     /// Adds an equation over unknowns, coordinates `A.x` and distances `|A-B|`.
@@ -296,9 +317,17 @@ impl ProblemBuilder {
                             frames: frames.clone(),
                         }
                     }
-                    DraftShape::Number(sketch) => Shape::Number {
-                        sketch: given(sketch)?,
-                    },
+                    DraftShape::Number(sketch, [low, high]) => {
+                        let within = [low, high].map(|end| end.as_ref().map(&given).transpose());
+                        let [low, high] = within;
+                        let within = [low?, high?];
+                        check_within(&within)
+                            .map_err(|why| ProblemError::at(place, format!("{shown}: {why}")))?;
+                        Shape::Number {
+                            sketch: given(sketch)?,
+                            within,
+                        }
+                    }
                 };
                 Ok(Object {
                     name: draft.name.clone(),
@@ -383,6 +412,37 @@ impl ProblemBuilder {
                 })
             })
             .collect()
+    }
+}
+
+/// Refuses a range that is empty.
+fn check_within(within: &[Option<Decimal>; 2]) -> Result<(), String> {
+    match within {
+        [Some(low), Some(high)] if low.value() > high.value() => Err(format!(
+            "a range goes from the lesser number to the greater one, and not from {low} to {high}"
+        )),
+        _ => Ok(()),
+    }
+}
+
+impl Problem {
+    /// Has the solutions sought in which an unknown is between two numbers, either of which may be left out.
+    ///
+    /// # Errors
+    /// In words: there is no such unknown, or the range is empty.
+    pub fn restrict(&mut self, name: &str, ends: [Option<Decimal>; 2]) -> Result<(), String> {
+        check_within(&ends)?;
+        let of_name = |object: &&mut Object| object.name == name;
+        let found = self.objects.iter_mut().find(of_name);
+        if let Some(Shape::Number { within, .. }) = found.map(|object| &mut object.shape) {
+            *within = ends;
+            return Ok(());
+        }
+        let unknowns = self.objects.iter();
+        let unknowns = unknowns.filter(|object| matches!(object.shape, Shape::Number { .. }));
+        let mut names = unknowns.map(|object| object.name.as_str());
+        let meant = did_you_mean(nearest(name, &mut names));
+        Err(format!("there is no unknown `{name}`{meant}"))
     }
 }
 

@@ -297,6 +297,7 @@ mod tests {
         };
         let number = || Shape::Number {
             sketch: Decimal::from(1),
+            within: [None, None],
         };
         let pose = || Pose {
             at: [0, 0, 0].map(Decimal::from),

@@ -35,9 +35,10 @@ pub use bend::default_coefficient as default_bend;
 pub use builder::{Numeral, ProblemBuilder};
 pub use check::{Rigidity, rigidity, rigidity_row};
 pub use error::{MAX_NAME, MAX_POINTS, Place, ProblemError};
+pub use expression::names as names_in;
 pub use file::{FileError, MAX_FILE_SIZE};
 #[doc(hidden)]
 pub use limits::{said_with_limits, toml_with_limits};
 pub use published::Published;
 #[doc(hidden)]
-pub use write::number as toml_number;
+pub use write::{number as toml_number, unknown as toml_unknown};

@@ -4,7 +4,7 @@
 use super::builder::ProblemBuilder;
 use super::cursor::{At, TEXT};
 use super::file::{FileError, Reader};
-use super::{AXES, Decimal, expression, joint, limits};
+use super::{AXES, Decimal, DecimalError, expression, joint, limits};
 use crate::constraint::{KINDS, Kind, Measure};
 
 /// The tables of objects.
@@ -18,7 +18,9 @@ fn wanted(table: &str) -> &'static str {
         "lines" => "[\"point\", \"point\"], or { point = [...], direction = [...] }",
         "planes" => "[\"point\", \"point\", \"point\"], or { point = [...], normal = [...] }",
         "circles" | "spheres" => "{ center = \"point\", radius = number }",
-        "unknowns" => "a number, where the path begins",
+        "unknowns" => {
+            "a number, where the path begins, or { value = number, within = [number, number] }"
+        }
         "joints" => super::joint::WANTED,
         "arcs" => "{ center = \"point\", start = \"point\", end = \"point\" }",
         _ => "points with their coordinates in the body's own frame, { p1 = [...], p2 = [...] }",
@@ -149,8 +151,7 @@ fn object(
 ) -> Result<ProblemBuilder, FileError> {
     let wrong = || at.wrong(wanted(table));
     if table == "unknowns" {
-        let value = Some(at).filter(|at| at.item.is_value());
-        return Ok(builder.unknown(name, value.ok_or_else(wrong)?.number()?));
+        return unknown(name, at, builder);
     }
     if table == "joints" {
         return joint::joint(name, at, builder);
@@ -199,4 +200,48 @@ fn object(
             builder.body(name, members.collect::<Result<Vec<_>, FileError>>()?)
         }
     })
+}
+
+/// An unknown: its value in the sketch, a range, of which the middle is that, or both.
+fn unknown(name: &str, at: &At, builder: ProblemBuilder) -> Result<ProblemBuilder, FileError> {
+    let wrong = || at.wrong(wanted("unknowns"));
+    let (value, range) = match (at.item.is_table_like(), at.item.is_array()) {
+        (true, _) => {
+            at.known_keys(&["value", "within"])?;
+            (at.get("value"), at.get("within"))
+        }
+        (_, true) => (None, Some(at.clone())),
+        _ if at.item.is_value() => (Some(at.clone()), None),
+        _ => return Err(wrong()),
+    };
+    let ends = range.map(|at| range_of(&at)).transpose()?;
+    let ends = ends.unwrap_or_default();
+    let value = match (
+        value,
+        ends.each_ref().map(|end| end.as_ref().map(Decimal::to_f64)),
+    ) {
+        (Some(value), _) => value.number()?,
+        (None, [None, None]) => return Err(wrong()),
+        (None, [low, high]) => {
+            let [low, high] = [low.or(high.map(|x| x - 2.0)), high.or(low.map(|x| x + 2.0))];
+            let middle = 0.5 * (low.unwrap_or_default() + high.unwrap_or_default());
+            let middle = middle.to_string().parse();
+            middle.map_err(|error: DecimalError| at.fault(error))?
+        }
+    };
+    Ok(builder.unknown_within(name, value, ends))
+}
+
+/// The ends of a range; `-inf` and `inf` are none.
+fn range_of(at: &At) -> Result<[Option<Decimal>; 2], FileError> {
+    let wanted = "a range, [0, 2], or [0, inf] where it has no end";
+    let ends = at.list(wanted)?;
+    let [low, high] = &ends[..] else {
+        return Err(at.wrong(wanted));
+    };
+    let end = |of: &At, open: f64| match of.item.as_float() {
+        Some(x) if x == open => Ok(None),
+        _ => of.number().map(Some),
+    };
+    Ok([end(low, f64::NEG_INFINITY)?, end(high, f64::INFINITY)?])
 }

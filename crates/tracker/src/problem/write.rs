@@ -140,7 +140,7 @@ impl Problem {
                         name(start),
                         name(end)
                     ),
-                    Shape::Number { sketch } => number(sketch),
+                    Shape::Number { sketch, within } => unknown(number(sketch), within),
                     Shape::Joint {
                         sort,
                         bodies,
@@ -211,6 +211,19 @@ fn with_limits(decimal: &Decimal) -> String {
 
 fn quoted(text: &str) -> String {
     toml_edit::Value::from(text).to_string()
+}
+
+/// An unknown with this value in the sketch, which is sought within a range, if it is, as files have it.
+pub fn unknown(sketch: String, within: &[Option<Decimal>; 2]) -> String {
+    let [low, high] = within.each_ref().map(|end| end.as_ref().map(number));
+    match (low, high) {
+        (None, None) => sketch,
+        (low, high) => format!(
+            "{{ value = {sketch}, within = [{}, {}] }}",
+            low.unwrap_or("-inf".to_owned()),
+            high.unwrap_or("inf".to_owned())
+        ),
+    }
 }
 
 /// A decimal in TOML's grammar for floats: a digit on either side of the point, no zeros

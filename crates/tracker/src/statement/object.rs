@@ -64,6 +64,19 @@ impl Object {
 }
 
 impl Shape {
+    /// In words, between which numbers an unknown is sought: `between 0 and 2`. `None`: it may be any.
+    pub fn range(&self) -> Option<String> {
+        match self {
+            Shape::Number { within, .. } => match within {
+                [None, None] => None,
+                [Some(low), None] => Some(format!("at least {low}")),
+                [None, Some(high)] => Some(format!("at most {high}")),
+                [Some(low), Some(high)] => Some(format!("between {low} and {high}")),
+            },
+            _ => None,
+        }
+    }
+
     /// The direction in the sketch of a line or plane of its own.
     #[doc(hidden)]
     pub fn own_direction(&self) -> Option<&[Decimal; 3]> {
@@ -158,6 +171,8 @@ pub enum Shape {
     Number {
         /// Its value in the sketch.
         sketch: Decimal,
+        /// Between which numbers it is in the solutions that are sought, where that is said; either end may be left out.
+        within: [Option<Decimal>; 2],
     },
 }
 

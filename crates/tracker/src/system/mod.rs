@@ -15,6 +15,7 @@ mod located;
 mod part;
 mod quantity;
 mod reversed;
+pub use reversed::Held;
 mod right;
 mod segment;
 mod simplices;

@@ -4,9 +4,37 @@ use super::Homotopy;
 use crate::constraint::Entry;
 use crate::elimination::Echelon;
 use crate::equations::{Ring, sign};
-use crate::interval::ZERO;
-use crate::problem::{Problem, most_along};
+use crate::interval::{Interval, ZERO, checked, enclose, point, upper_half};
+use crate::problem::{Problem, Shape, most_along};
 use crate::residues::Residue;
+
+/// An unknown that is in a range in all figures that are sought: by its sign, which it has from the sketch, or as the problem says.
+#[derive(Debug, Clone)]
+pub struct Held {
+    /// The unknown.
+    pub unknown: usize,
+    /// All of its range, and perhaps a little more, as ends are rounded.
+    pub range: Interval,
+    /// What is in its range for certain.
+    inner: Interval,
+    /// Whether the ends are no part of it.
+    is_open: bool,
+}
+
+impl Held {
+    /// Whether a number of which this is an enclosure is in the range, if that is certain.
+    pub fn admits(&self, x: Interval) -> Option<bool> {
+        let (inner, outer) = (self.inner, self.range);
+        let (is_in, is_out) = match self.is_open {
+            true => (
+                x.interior(inner),
+                x.sup() <= outer.inf() || x.inf() >= outer.sup(),
+            ),
+            false => (x.subset(inner), x.disjoint(outer)),
+        };
+        (is_in || is_out).then_some(is_in)
+    }
+}
 
 impl Homotopy {
     /// Whether the equations at t = 1 hold with these unknowns' signs changed wherever they hold without: each stays as it is, or
@@ -152,5 +180,50 @@ impl Homotopy {
             }
         }
         Ok(signs)
+    }
+
+    /// What figures that are sought are held in: [these signs](Self::fixed_signs), and the ranges that unknowns are to be in.
+    pub fn held(&self, problem: &Problem) -> Result<Vec<Held>, usize> {
+        let signs = self.fixed_signs(problem)?.into_iter();
+        let mut all: Vec<Held> = signs
+            .map(|(unknown, is_negative)| {
+                let half = upper_half();
+                let range = if is_negative { -half } else { half };
+                Held {
+                    unknown,
+                    range,
+                    inner: range,
+                    is_open: true,
+                }
+            })
+            .collect();
+        for (object, of) in problem.objects.iter().enumerate() {
+            let Shape::Number { within, .. } = &of.shape else {
+                continue;
+            };
+            if within.iter().all(Option::is_none) {
+                continue;
+            }
+            let unknown = self.object_unknowns(object).next().ok_or(object)?;
+            // The unit is a power of two.
+            let unit = point(self.unit.powi(-self.power(unknown)));
+            let [low, high] = within
+                .each_ref()
+                .map(|end| end.as_ref().map(|x| enclose(x) * unit));
+            let between = |low: Option<f64>, high: Option<f64>| {
+                let (low, high) = (
+                    low.unwrap_or(f64::NEG_INFINITY),
+                    high.unwrap_or(f64::INFINITY),
+                );
+                checked(low, high).unwrap_or(Interval::EMPTY)
+            };
+            all.push(Held {
+                unknown,
+                range: between(low.map(|x| x.inf()), high.map(|x| x.sup())),
+                inner: between(low.map(|x| x.sup()), high.map(|x| x.inf())),
+                is_open: false,
+            });
+        }
+        Ok(all)
     }
 }

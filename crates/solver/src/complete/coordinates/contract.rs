@@ -6,7 +6,7 @@
 //! (x − (a + b)/2)² is L · R + ((a − b)/2)². All are evaluated in intervals, so that they hold
 //! for every zero in the box and every value that the numbers of blocks before may have.
 
-use super::system::{Form, Row, product, shared};
+use super::system::{Form, Row, product, shared, stands};
 use crate::certificate::cover::coordinates::{Empty, ROUNDS};
 use crate::interval::{Interval, ZERO, checked, is_narrower, point, upper_half};
 use crate::places::Each as _;
@@ -127,6 +127,43 @@ fn revise(
                 narrow(this, Interval::ENTIRE, least.inf(), is_free, x, &mut tell)?;
             } else {
                 narrow(this, wanted / by, 0.0, is_free, x, &mut tell)?;
+            }
+        }
+    }
+    collected(row, is_free, x, &mut tell)
+}
+
+/// Contracts each entry that stands in several products of a row by all of these together: where its factor in them, taken in one range, is not 0, it is
+/// what the others leave divided by that.
+fn collected(
+    row: &Row,
+    is_free: &[bool],
+    x: &mut [Interval],
+    tell: &mut impl FnMut(usize),
+) -> Result<(), Empty> {
+    for &entry in row.repeated.iter().filter(|&&entry| is_free[entry]) {
+        let (mut factor, mut rest) = (ZERO, row.right);
+        for p in &row.products {
+            let ends = [(p.left, p.right), (p.right, p.left)];
+            let of = ends.into_iter().find_map(|(form, other)| {
+                let mut own = form.entries();
+                let sign = own.find_map(|(e, sign)| (e == entry).then_some(sign))?;
+                Some((form, sign, other))
+            });
+            match of.filter(|_| stands(p, entry) == 1) {
+                Some((form, sign, other)) => {
+                    let by = p.factor * other.value(|e| x[e]);
+                    factor += if sign > 0 { by } else { -by };
+                    // What is left of the difference without it.
+                    rest -= by * form.value(|e| if e == entry { ZERO } else { x[e] });
+                }
+                None => rest -= p.factor * product(p, x),
+            }
+        }
+        if !factor.contains(0.0) && !rest.is_entire() {
+            set(entry, x[entry].intersection(rest / factor), x, tell);
+            if x[entry].is_empty() {
+                return Err(Empty);
             }
         }
     }

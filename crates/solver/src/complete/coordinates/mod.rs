@@ -50,7 +50,7 @@ use crate::order::InOrder;
 use crate::places::Each as _;
 use crate::problem::Problem;
 use crate::system::told::{self, Told};
-use crate::system::{GaugeError, Homotopy, typical_length};
+use crate::system::{GaugeError, Held, Homotopy, typical_length};
 use crate::track::certified::{Relation, prove_figure};
 use crate::track::{FigureBox, Signed, Signs, Solution};
 use contract::contract;
@@ -86,7 +86,7 @@ pub fn all(problem: &Problem, options: &Options) -> Result<Complete, Unserved> {
         return Err(Unserved::Refused(what.to_owned()));
     }
     let system = System::new(&homotopy);
-    let signs = homotopy.fixed_signs(problem).map_err(|object| {
+    let held = homotopy.held(problem).map_err(|object| {
         Unserved::Refused(format!(
             "not served: in which direction `{}` is fixed is not certain (name two fixed points of it instead)",
             problem.objects[object].name
@@ -98,7 +98,7 @@ pub fn all(problem: &Problem, options: &Options) -> Result<Complete, Unserved> {
     let result = options.watched(&run, begin, || {
         searched(
             problem,
-            (&homotopy, system, signs),
+            (&homotopy, system, held),
             (&run, store),
             options,
             begin,
@@ -123,7 +123,7 @@ fn square(problem: &Problem) -> Result<Homotopy, GaugeError> {
 
 fn searched(
     problem: &Problem,
-    (homotopy, mut system, signs): (&Homotopy, System, Vec<(usize, bool)>),
+    (homotopy, mut system, held): (&Homotopy, System, Vec<Held>),
     (run, store): (&Watched, Option<(&Keep, Store<Found>)>),
     options: &Options,
     begin: Instant,
@@ -155,18 +155,18 @@ fn searched(
         ));
     }
     let blocks = blocks(&system);
-    let halves = symmetry::halves(problem, (homotopy, &signs), &blocks);
+    let halves = symmetry::halves(problem, (homotopy, &held), &blocks);
     let pivots: Vec<usize> = halves.iter().map(|half| half.unknown).collect();
     let positive = pivots.iter().copied().chain(homotopy.positive_unknowns());
-    let signed = positive.map(|i| (i, false)).chain(signs.iter().copied());
-    let (x, space) = space(&system, &signed.collect::<Vec<_>>());
+    let positive = positive.map(|i| (i, upper_half()));
+    let (x, space) = space(&system, positive.chain(ranges_of(&held)));
     let kept = match store {
         Some((keep, store)) => Some(Kept::new(store, keep, (problem, &x), run.stop)?),
         None => None,
     };
     let mut figures = Figures::new(
         problem,
-        (homotopy, signs),
+        (homotopy, held),
         (&system, blocks),
         run,
         kept.as_ref(),
@@ -251,16 +251,21 @@ fn searched(
     Ok(result)
 }
 
-/// The ranges of all unknowns, and the number 0, in which figures are searched that have these signs: an unknown, and whether it is negative.
-fn space(system: &System, signed: &[(usize, bool)]) -> (Vec<Interval>, Result<(), Empty>) {
+/// The unknowns that are held, and where.
+fn ranges_of(held: &[Held]) -> impl Iterator<Item = (usize, Interval)> {
+    held.iter().map(|held| (held.unknown, held.range))
+}
+
+/// The ranges of all unknowns, and the number 0, in which figures are searched of which some unknowns are in these.
+fn space(
+    system: &System,
+    ranges: impl Iterator<Item = (usize, Interval)>,
+) -> (Vec<Interval>, Result<(), Empty>) {
     let m = system.unknowns;
     let mut x = vec![Interval::ENTIRE; m + 1];
     x[m] = ZERO;
-    for &(i, is_negative) in signed {
-        x[i] = match is_negative {
-            true => -upper_half(),
-            false => upper_half(),
-        };
+    for (i, range) in ranges {
+        x[i] = x[i].intersection(range);
     }
     let mut is_free = vec![true; m + 1];
     is_free[m] = false;
@@ -317,8 +322,8 @@ fn bound_pairs(system: &mut System, homotopy: &Homotopy, targets: &Targets) {
 struct Figures<'a> {
     problem: &'a Problem,
     homotopy: &'a Homotopy,
-    /// The unknowns whose sign figures have from the sketch, and whether it is negative.
-    signs: Vec<(usize, bool)>,
+    /// What figures have a sign of from the sketch, and the ranges in which unknowns are sought.
+    held: Vec<Held>,
     /// For each block the body on legs that it is, if it was searched over how that is turned.
     bodies: Vec<Option<Body>>,
     system: &'a System,
@@ -366,7 +371,7 @@ enum Judged {
 impl<'a> Figures<'a> {
     fn new(
         problem: &'a Problem,
-        (homotopy, signs): (&'a Homotopy, Vec<(usize, bool)>),
+        (homotopy, held): (&'a Homotopy, Vec<Held>),
         (system, blocks): (&'a System, Vec<Cut>),
         run: &'a Watched<'a>,
         kept: Option<&'a Kept<'a>>,
@@ -382,7 +387,7 @@ impl<'a> Figures<'a> {
         Figures {
             problem,
             homotopy,
-            signs,
+            held,
             bodies: vec![None; blocks.len()],
             system,
             run,
@@ -583,7 +588,18 @@ impl<'a> Figures<'a> {
                 exact.pop();
                 exact
             })),
-            None => Judged::Undecided(Why::Vanishing),
+            None => {
+                let mut held = self.held.iter();
+                let is_border = held.any(|held| {
+                    let x = figure.figure.enclosure(held.unknown);
+                    held.admits(x).is_none()
+                });
+                Judged::Undecided(if is_border {
+                    Why::Border
+                } else {
+                    Why::Vanishing
+                })
+            }
         }
     }
 
@@ -642,19 +658,18 @@ impl<'a> Figures<'a> {
         rows.all(|row| row.value(&at) == ZERO).then_some(near)
     }
 
-    /// Whether lengths and radii are positive, what is fixed has its sign and no vector vanishes that must not, if that is certain.
+    /// Whether lengths and radii are positive, what is fixed has its sign, unknowns are in their ranges and no vector vanishes that must not, if that is certain.
     fn is_proper(&self, figure: &FigureBox) -> Option<bool> {
         let at = |i: usize| match i < self.system.unknowns {
             true => figure.figure.enclosure(i),
             false => ZERO,
         };
         let mut is_certain = true;
-        for &(i, negative) in &self.signs {
-            let x = if negative { -at(i) } else { at(i) };
-            if x.sup() <= 0.0 {
-                return Some(false);
+        for held in &self.held {
+            match held.admits(at(held.unknown)) {
+                Some(false) => return Some(false),
+                is_in => is_certain &= is_in.is_some(),
             }
-            is_certain &= x.inf() > 0.0;
         }
         for i in self.homotopy.positive_unknowns() {
             if at(i).sup() <= 0.0 {
@@ -671,10 +686,15 @@ impl<'a> Figures<'a> {
                 let end = |i: usize| i.min(self.system.unknowns);
                 vector.iter().any(|&[i, j]| at(end(i)) != at(end(j)))
             };
-            let mut signs = self.signs.iter();
-            let is_signed = signs.all(|&(i, negative)| at(i) != 0.0 && (at(i) < 0.0) == negative);
+            let mut held = self.held.iter();
+            let is_held = held.try_fold(true, |all, held| {
+                Some(all & held.admits(point(at(held.unknown)))?)
+            });
             let is_positive = positive.iter().all(|&i| at(i) > 0.0);
-            return Some(is_signed && is_positive && vectors.iter().all(is_there));
+            return match is_positive && vectors.iter().all(is_there) {
+                true => is_held,
+                false => Some(false),
+            };
         }
         for vector in self.homotopy.nonzero_vectors() {
             let coordinates = || {

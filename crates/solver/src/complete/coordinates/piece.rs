@@ -80,6 +80,12 @@ impl<'s, 'a> Piece<'s, 'a> {
         }
     }
 
+    /// Notes that a curve of zeros was seen.
+    pub fn has_curve(&mut self) {
+        self.curve = Some(Why::Flexible);
+        self.tally.is_flexible = true;
+    }
+
     /// Looks at a part: it is given up, decided, left undecided, or what it is parted into comes to the others.
     pub fn visit(&mut self, mut node: Node, others: &mut Vec<Node>) {
         if !self.tally.begin(node.share) {
@@ -123,6 +129,7 @@ impl<'s, 'a> Piece<'s, 'a> {
             };
             if why != Why::Small {
                 self.curve = Some(why);
+                self.tally.is_flexible |= why == Why::Flexible;
             }
             self.tally.leave(why, share);
             return;

@@ -13,7 +13,7 @@ use super::search::{About, Block, Found, Run, leave, ranges};
 use super::system::System;
 use super::{Cut, Watched, both_ways, space, symmetry};
 use crate::complete::{Options, Part, Why};
-use crate::interval::{Interval, ZERO};
+use crate::interval::{Interval, ZERO, upper_half};
 use crate::order::InOrder;
 use crate::problem::Problem;
 use crate::system::Homotopy;
@@ -37,10 +37,12 @@ pub struct Ranged {
 /// In words: a line or plane that is fixed in a direction that is not certain.
 pub fn ranged(problem: &Problem, homotopy: &Homotopy, options: &Options) -> Result<Ranged, String> {
     let begin = Instant::now();
-    let signs = homotopy.fixed_signs(problem).map_err(|object| {
+    let uncertain = |object: usize| {
         let name = &problem.objects[object].name;
         format!("in which direction {name} is fixed is not certain: name two fixed points of it")
-    })?;
+    };
+    let signs = homotopy.fixed_signs(problem).map_err(uncertain)?;
+    let held = homotopy.held(problem).map_err(uncertain)?;
     let mut homotopy = homotopy.clone();
     homotopy.reduce_twins(&signs);
     let homotopy = &homotopy;
@@ -53,7 +55,7 @@ pub fn ranged(problem: &Problem, homotopy: &Homotopy, options: &Options) -> Resu
         needs: Vec::new(),
     };
     let blocks = [cut];
-    let halves = symmetry::halves(problem, (homotopy, &signs), &blocks);
+    let halves = symmetry::halves(problem, (homotopy, &held), &blocks);
     let [all] = &blocks;
     let m = system.unknowns;
     // What has a sign all over what is listed.
@@ -63,7 +65,11 @@ pub fn ranged(problem: &Problem, homotopy: &Homotopy, options: &Options) -> Resu
         .map(|i| (i, false))
         .chain(signs.iter().copied())
         .collect();
-    let (mut x, space) = space(&system, &signed);
+    let half = |&(i, is_negative): &(usize, bool)| {
+        let half = upper_half();
+        (i, if is_negative { -half } else { half })
+    };
+    let (mut x, space) = space(&system, signed.iter().map(half));
     if space.is_err() {
         return Ok(Ranged::default());
     }
@@ -91,7 +97,7 @@ pub fn ranged(problem: &Problem, homotopy: &Homotopy, options: &Options) -> Resu
         undecided: found.undecided,
         ..Ranged::default()
     };
-    if !symmetry::keeps_axes(problem, homotopy, &signs) && !found.zeros.is_empty() {
+    if !symmetry::keeps_axes(problem, homotopy, &held) && !found.zeros.is_empty() {
         // Figures are told apart for some choices by what is the same for others.
         leave(&mut ranged.undecided, Why::Apart, 1, 0.0);
         return Ok(ranged);

@@ -17,8 +17,9 @@ use crate::certificate::cover::coordinates::Empty;
 use crate::complete::outcome::open_share;
 use crate::complete::search::Run as Watched;
 use crate::complete::{Constructed, Part, Why};
-use crate::interval::Interval;
+use crate::interval::{Interval, hull, point};
 use crate::order::InOrder;
+use crate::random::Random;
 use crate::rational::Rational;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -75,8 +76,13 @@ pub const SMALL: f64 = 1e-9;
 pub const COARSE: f64 = 1e-3;
 /// How many that are.
 pub const MANY: usize = 300;
+/// Where that many are undecided a piece is given up in which a curve of figures was seen.
+pub const FEW: usize = 100;
 /// Where that many are undecided a piece is given up.
 pub const TOO_MANY: usize = 5000;
+/// Places from which a curve of zeros is looked for, and how far they are from 0 where they may be.
+const PROBES: usize = 32;
+const NEAR: f64 = 4.0;
 /// A length below this seems to be none.
 const NONE: f64 = 1e-6;
 /// An unknown that may be as large as this, and more, is not looked at any further.
@@ -189,6 +195,7 @@ impl<'a> Block<'a> {
             let open: f64 = nodes.iter().map(|node| node.share).sum();
             run.watched.add_before(run.weight * (1.0 - open).max(0.0));
         }
+        let is_flexible = !nodes.is_empty() && self.seems_flexible(&nodes);
         let own = self.square.own.iter();
         let mut all = Together {
             ranges: nodes
@@ -200,7 +207,10 @@ impl<'a> Block<'a> {
         let mut found: Vec<Found> = nodes
             .into_par_iter()
             .enumerate()
-            .map(|(piece, node)| self.piece(about, (piece, node), &first.zeros, how, run))
+            .map(|(piece, node)| {
+                let from = (first.zeros.as_slice(), is_flexible);
+                self.piece(about, (piece, node), from, how, run)
+            })
             .collect();
         all.add(first.zeros, None);
         all.find(&mut found);
@@ -243,12 +253,15 @@ impl<'a> Block<'a> {
         &self,
         about: &About,
         (number, node): (usize, Node),
-        zeros: &[Zero],
+        (zeros, is_flexible): (&[Zero], bool),
         how: How,
         run: &Run,
     ) -> Found {
         let searched = |node: Node| {
             let mut piece = Piece::new(self, how, run);
+            if is_flexible {
+                piece.has_curve();
+            }
             piece.tally.found.zeros.extend_from_slice(zeros);
             let mut stack = vec![node];
             while let Some(node) = stack.pop() {
@@ -290,6 +303,29 @@ impl<'a> Block<'a> {
         // No unknown has this number.
         let parted = own.chain([usize::MAX]).chain(sides).chain([usize::MAX]);
         digest(parted.chain(about.told.iter().copied()), ranges, zeros)
+    }
+
+    /// Whether a curve of zeros goes through one of these parts, as Newton's method in floats sees from places in them. Of figures that is told where it is met.
+    fn seems_flexible(&self, nodes: &[Node]) -> bool {
+        let mut random = Random::new(1);
+        let is_of_numbers = self.positive.is_empty() && self.nonzero.is_empty();
+        is_of_numbers
+            && nodes.iter().cycle().take(PROBES).any(|node| {
+                let mut place = |&u: &usize| {
+                    let near = node.x[u].intersection(hull(-NEAR, NEAR));
+                    let within = if near.is_empty() { node.x[u] } else { near };
+                    point(within.mid() + 0.5 * random.symmetric() * within.wid().min(NEAR))
+                };
+                let from: Vec<Interval> = self.square.own.iter().map(&mut place).collect();
+                let zero = self
+                    .square
+                    .on_a_curve(&self.square.with(&node.x, |k| from[k]));
+                let is_in = |node: &Node, zero: &[f64]| {
+                    let mut own = self.square.own.iter().zip(zero);
+                    own.all(|(&u, &x)| node.x[u].contains(x))
+                };
+                zero.is_some_and(|zero| nodes.iter().any(|node| is_in(node, &zero)))
+            })
     }
 
     /// The logarithm of the product of all widths.

@@ -8,20 +8,20 @@ use crate::blocks::Block;
 use crate::certificate::cover::coordinates::{Change, Half, changes};
 use crate::constraint::{Symmetry, symmetry};
 use crate::problem::Problem;
-use crate::system::Homotopy;
+use crate::system::{Held, Homotopy};
 
 /// The unknowns that may be taken as not negative, each with the symmetry that changes it and none of the others: those of the first `blocks` that a
 /// symmetry changes, so that what comes after them does not have to be searched for both signs.
 pub fn halves(
     problem: &Problem,
-    (homotopy, signs): (&Homotopy, &[(usize, bool)]),
+    (homotopy, held): (&Homotopy, &[Held]),
     blocks: &[Block],
 ) -> Vec<Half> {
     let allowed = symmetry(problem);
     let (d, twins) = (homotopy.dimension, homotopy.tail.twins.len());
     let of = |axes: Vec<usize>, twins: Vec<usize>| {
         let by = Change { axes, twins };
-        Some((changes(homotopy, (allowed, signs), &by)?, by))
+        Some((changes(homotopy, (allowed, held), &by)?, by))
     };
     let of_axes = reversals(allowed, d)
         .into_iter()
@@ -65,13 +65,13 @@ fn reversals(allowed: Symmetry, dimension: usize) -> Vec<Vec<usize>> {
     }
 }
 
-/// Whether each of these reversals keeps the equations and these signs.
-pub fn keeps_axes(problem: &Problem, homotopy: &Homotopy, signs: &[(usize, bool)]) -> bool {
+/// Whether each of these reversals keeps the equations and what is held.
+pub fn keeps_axes(problem: &Problem, homotopy: &Homotopy, held: &[Held]) -> bool {
     let allowed = symmetry(problem);
     let mut all = reversals(allowed, homotopy.dimension).into_iter();
     all.all(|axes| {
         let twins = Vec::new();
-        changes(homotopy, (allowed, signs), &Change { axes, twins }).is_some()
+        changes(homotopy, (allowed, held), &Change { axes, twins }).is_some()
     })
 }
 

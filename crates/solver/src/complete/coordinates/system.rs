@@ -24,6 +24,8 @@ pub struct Row {
     pub right: Interval,
     /// The entries in it, each once.
     pub entries: Vec<usize>,
+    /// Those of them that stand once in each of several products.
+    pub repeated: Vec<usize>,
 }
 
 /// As many equations as unknowns, and what follows from these in figures.
@@ -49,8 +51,14 @@ impl Row {
     /// A row of some products. `zero`: the entry that is the number 0.
     pub fn new(products: Vec<Product>, right: Interval, zero: usize) -> Self {
         let entries = products.iter().flat_map(|p| p.entries());
+        let entries = each_once(entries.filter(|&entry| entry != zero));
+        let is_repeated = |entry: &&usize| {
+            let stands = products.iter().filter(|p| stands(p, **entry) == 1);
+            stands.count() > 1
+        };
         Row {
-            entries: each_once(entries.filter(|&entry| entry != zero)),
+            repeated: entries.iter().filter(is_repeated).copied().collect(),
+            entries,
             products,
             right,
         }
@@ -92,6 +100,11 @@ impl Row {
             }
         }
     }
+}
+
+/// How often an entry stands in a product.
+pub fn stands(p: &Product, entry: usize) -> usize {
+    p.entries().filter(|&other| other == entry).count()
 }
 
 /// left · right, a square where both are the same.

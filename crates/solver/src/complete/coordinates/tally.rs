@@ -1,7 +1,7 @@
 //! What is counted in a part of a search that goes on by itself, whatever its own parts are.
 
 use super::newton::Square;
-use super::search::{COARSE, Found, MANY, Run, SMALL, TOO_MANY, add, leave};
+use super::search::{COARSE, FEW, Found, MANY, Run, SMALL, TOO_MANY, add, leave};
 use crate::complete::Why;
 use crate::interval::Interval;
 use std::sync::atomic::Ordering;
@@ -15,6 +15,8 @@ pub struct Tally<'s> {
     pub found: Found,
     /// The parts that stay undecided.
     pub left: usize,
+    /// Whether a curve of figures was seen: then no set is complete, and it is not worth much to leave few parts of it.
+    pub is_flexible: bool,
 }
 
 impl<'s> Tally<'s> {
@@ -25,6 +27,7 @@ impl<'s> Tally<'s> {
             has_ranges,
             found: Found::default(),
             left: 0,
+            is_flexible: false,
         }
     }
 
@@ -39,7 +42,12 @@ impl<'s> Tally<'s> {
             self.leave(Why::Unfinished, share);
             return false;
         }
-        if self.left > if self.has_ranges { MANY } else { TOO_MANY } {
+        let most = match (self.is_flexible, self.has_ranges) {
+            (true, _) => FEW,
+            (_, true) => MANY,
+            _ => TOO_MANY,
+        };
+        if self.left > most {
             self.leave(Why::GivenUp, share);
             return false;
         }

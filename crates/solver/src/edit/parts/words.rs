@@ -78,7 +78,7 @@ impl Parts {
                 }
                 (None, Some(o)) => match &problem.objects[o].shape {
                     Shape::Round { radius, .. } => ("radii", Item::Object(o), radius.clone()),
-                    Shape::Number { sketch } => ("values", Item::Object(o), sketch.clone()),
+                    Shape::Number { sketch, .. } => ("values", Item::Object(o), sketch.clone()),
                     _ => unreachable!("only circles and numbers have a number of their own"),
                 },
                 _ => return Err(format!("{} is free", self.cut.system.unknowns[u].name)),

@@ -56,7 +56,7 @@ impl Lowering<'_> {
     /// An unknown of the problem.
     pub fn unknown_number(&self, object: usize) -> Number {
         let of = &self.problem.objects[object];
-        let Shape::Number { sketch } = &of.shape else {
+        let Shape::Number { sketch, .. } = &of.shape else {
             unreachable!("only unknown numbers are asked for")
         };
         Number {
@@ -348,9 +348,11 @@ impl Lowering<'_> {
             }
         }
         let is_there = |pair: &[Entry; 2]| self.numbers.contains_key(&Made::Product(*pair));
-        let best = found
-            .iter()
-            .max_by_key(|(pair, (count, place, _))| (is_there(pair), *count, Reverse(*place)));
+        // Of a square more is known in ranges, and where the equations are alike it stands in more of them.
+        let is_square = |[a, b]: &[Entry; 2]| self.has_headings && a == b;
+        let best = found.iter().max_by_key(|(pair, (count, place, _))| {
+            (is_there(pair), *count, is_square(pair), Reverse(*place))
+        });
         best.map(|(_, (_, _, pair))| pair.map(Number::clone))
     }
 

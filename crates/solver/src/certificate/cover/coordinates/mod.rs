@@ -29,10 +29,10 @@ use super::{CoverError, CoverStage, CoverVerdict, ENDED};
 use crate::certificate::checker::equations::Equations;
 use crate::certificate::checker::place::Place;
 use crate::constraint::{self, Symmetry};
-use crate::interval::point;
+use crate::interval::{point, upper_half};
 use crate::model::Margin;
 use crate::problem::Problem;
-use crate::system::Homotopy;
+use crate::system::{Held, Homotopy};
 use independent::Apart;
 use space::Rows;
 use std::rc::Rc;
@@ -45,8 +45,8 @@ const MOVED: usize = 4;
 pub struct Space {
     eq: Equations,
     allowed: Symmetry,
-    /// The unknowns whose sign figures have from the sketch, and whether it is negative.
-    signs: Vec<(usize, bool)>,
+    /// What figures have a sign of from the sketch, and the ranges in which unknowns are sought.
+    held: Vec<Held>,
     rows: Rows,
     not_negative: Vec<usize>,
     blocks: Vec<Block>,
@@ -72,12 +72,12 @@ impl Space {
         let unit = 2f64.powi(cover.unit_exponent.into());
         let homotopy = Homotopy::for_sets_in(problem, unit).map_err(|error| error.to_string())?;
         let eq = Equations::new(homotopy);
-        let signs = eq.homotopy.fixed_signs(problem).map_err(|object| {
+        let held = eq.homotopy.held(problem).map_err(|object| {
             let name = &problem.objects[object].name;
             format!("in which direction {name} is fixed is not certain")
         })?;
         let allowed = constraint::symmetry(problem);
-        let not_negative = symmetry::not_negative(&eq.homotopy, (allowed, &signs), &cover.halves)?;
+        let not_negative = symmetry::not_negative(&eq.homotopy, (allowed, &held), &cover.halves)?;
         for block in &cover.blocks {
             let fits = |numbers: &[usize]| {
                 let mut sorted = numbers.to_vec();
@@ -92,7 +92,8 @@ impl Space {
             }
         }
         let single = |&i: &usize| vec![[i, eq.m + 1]];
-        let signed = signs.iter().map(|(i, _)| i).chain(&not_negative);
+        let signed = held.iter().map(|held| &held.unknown);
+        let signed = signed.chain(&not_negative);
         let conditions = eq.positive.iter().chain(signed).map(single);
         let conditions: Vec<_> = eq.nonzero.iter().cloned().chain(conditions).collect();
         let apart = Apart::new(&eq, &conditions, cover);
@@ -102,7 +103,7 @@ impl Space {
         let mut space = Space {
             bodies: bodies.collect::<Result<_, _>>()?,
             allowed,
-            signs,
+            held,
             rows: Rows::new(&eq),
             eq,
             not_negative,
@@ -163,7 +164,7 @@ impl Space {
         (0..self.eq.m).any(apart) && one.is_congruent(other, &self.eq) == Some(false)
     }
 
-    /// Whether lengths and radii are positive at a zero, what is fixed has its sign, and no vector vanishes that must not.
+    /// Whether lengths and radii are positive at a zero, what is fixed has its sign, unknowns are in their ranges, and no vector vanishes that must not.
     fn is_figure(&self, place: &Place) -> bool {
         let at = |i: usize| match i < self.eq.m {
             true => place.spot.at(i),
@@ -173,12 +174,11 @@ impl Space {
             let mut coordinates = vector.iter();
             coordinates.any(|&[i, j]| i != j && !(at(i) - at(j)).contains(0.0))
         };
-        let is_signed = |&(i, negative): &(usize, bool)| match negative {
-            true => at(i).sup() < 0.0,
-            false => at(i).inf() > 0.0,
-        };
         self.eq.positive.iter().all(|&i| at(i).inf() > 0.0)
-            && self.signs.iter().all(is_signed)
+            && self
+                .held
+                .iter()
+                .all(|held| held.admits(at(held.unknown)) == Some(true))
             && self.eq.nonzero.iter().all(is_there)
     }
 
@@ -187,18 +187,19 @@ impl Space {
         let exact: Vec<_> = numbers.iter().map(|&x| point(x)).collect();
         let at = |i: usize| numbers.get(i).copied().unwrap_or(0.0);
         let vanishes = |vector: &Vec<[usize; 2]>| vector.iter().all(|&[i, j]| at(i) == at(j));
-        let is_improper =
-            self.eq.positive.iter().any(|&i| at(i) <= 0.0) || self.eq.nonzero.iter().any(vanishes);
+        let is_out = |held: &Held| held.admits(point(at(held.unknown))) == Some(false);
+        let is_improper = self.eq.positive.iter().any(|&i| at(i) <= 0.0)
+            || self.eq.nonzero.iter().any(vanishes)
+            || self.held.iter().any(is_out);
         is_improper && place.covers(&exact) && self.rows.hold_exactly(&self.eq, numbers)
     }
 
-    /// All of the space that has to be looked at: lengths and radii are positive in figures, and what is fixed has its sign.
+    /// All of the space that has to be looked at: lengths and radii are positive in figures, what is fixed has its sign, and unknowns
+    /// are in their ranges.
     pub fn whole(&self) -> Part {
         let positive = self.not_negative.iter().chain(&self.eq.positive);
-        let signs = positive
-            .map(|&i| (i, false))
-            .chain(self.signs.iter().copied());
-        Part::whole(&self.eq, signs)
+        let held = self.held.iter().map(|held| (held.unknown, held.range));
+        Part::whole(&self.eq, positive.map(|&i| (i, upper_half())).chain(held))
     }
 
     /// Narrows a part by the equations one by one.
@@ -296,7 +297,7 @@ impl Space {
 
     /// The solution that a change of signs takes the zero in a part to, if it is one.
     pub fn image_in(&self, by: &Change, part: &Part) -> Option<Image> {
-        let changes = changes(&self.eq.homotopy, (self.allowed, &self.signs), by)?;
+        let changes = changes(&self.eq.homotopy, (self.allowed, &self.held), by)?;
         let mut seen = Seen { figure: 0, changes };
         let figure = (0..self.figures.len()).find(|&figure| {
             seen.figure = figure;
@@ -311,7 +312,7 @@ impl Space {
         if image.figure >= self.figures.len() {
             return Err("an image is said to be of a solution that is not listed".to_owned());
         }
-        let changes = changes(&self.eq.homotopy, (self.allowed, &self.signs), &image.by);
+        let changes = changes(&self.eq.homotopy, (self.allowed, &self.held), &image.by);
         let unlike = || {
             format!(
                 "what is called an image of solution {} is not so by a symmetry of the problem",

@@ -71,12 +71,11 @@ pub struct Rows {
 }
 
 impl Part {
-    /// All of the space where some unknowns are not negative, or with `true` not positive.
-    pub fn whole(eq: &Equations, signs: impl Iterator<Item = (usize, bool)>) -> Part {
+    /// All of the space where some unknowns are in ranges.
+    pub fn whole(eq: &Equations, ranges: impl Iterator<Item = (usize, Interval)>) -> Part {
         let mut x = vec![Interval::ENTIRE; eq.m];
-        for (i, negative) in signs {
-            let half = upper_half();
-            x[i] = if negative { -half } else { half };
+        for (i, range) in ranges {
+            x[i] = x[i].intersection(range);
         }
         x.extend([point(1.0), ZERO, point(1.0)]);
         Part {

@@ -2,18 +2,18 @@
 
 use super::format::{Change, Half};
 use crate::constraint::Symmetry;
-use crate::system::Homotopy;
+use crate::system::{Held, Homotopy};
 
 /// The unknowns that may be taken as not negative: each is changed by a symmetry that changes none before it, so that
 /// of the images of a figure under these symmetries one has none of them negative.
 pub fn not_negative(
     homotopy: &Homotopy,
-    (allowed, signs): (Symmetry, &[(usize, bool)]),
+    (allowed, held): (Symmetry, &[Held]),
     halves: &[Half],
 ) -> Result<Vec<usize>, String> {
     let mut done: Vec<usize> = Vec::new();
     for half in halves {
-        let fits = changes(homotopy, (allowed, signs), &half.by).is_some_and(|changes| {
+        let fits = changes(homotopy, (allowed, held), &half.by).is_some_and(|changes| {
             changes.get(half.unknown) == Some(&true) && done.iter().all(|&i| !changes[i])
         });
         if !fits {
@@ -28,15 +28,15 @@ pub fn not_negative(
 }
 
 /// For each unknown whether a change of signs changes it; `None` where it is no symmetry: it has to be one that the problem
-/// has, to keep the equations, and to keep lengths and radii positive and all `signs` that figures have.
+/// has, to keep the equations, and to keep lengths and radii positive, and all unknowns that are `held` what they are.
 pub fn changes(
     homotopy: &Homotopy,
-    (allowed, signs): (Symmetry, &[(usize, bool)]),
+    (allowed, held): (Symmetry, &[Held]),
     by: &Change,
 ) -> Option<Vec<bool>> {
     let changes = signs_changed(homotopy, allowed, by)?;
     let positive = homotopy.positive_unknowns().into_iter();
-    let mut signed = positive.chain(signs.iter().map(|(i, _)| *i));
+    let mut signed = positive.chain(held.iter().map(|held| held.unknown));
     let stay = signed.all(|i| !changes[i]);
     (stay && homotopy.keeps(&changes)).then_some(changes)
 }

@@ -164,7 +164,7 @@ impl Figures<'_> {
                 self.take(b, (&found, 0), &mut state);
             }
         }
-        let signed = self.signs.iter().map(|(i, _)| *i);
+        let signed = self.held.iter().map(|held| held.unknown);
         let signed = signed.chain(self.homotopy.positive_unknowns());
         let m = self.system.unknowns;
         let signed = signed.chain(pivots.iter().copied()).map(|i| vec![[i, m]]);
