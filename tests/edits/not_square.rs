@@ -69,15 +69,15 @@ constraints = { fixed = ["O", "R"], distances = [["O","P",1],["R","Q",2],["P","Q
         r#"dimension = 2
 points = { O = [0, 0], P = [0.6, 0.8], Q = [2, 2], R = [2.5, 1] }
 constraints = { fixed = ["O"], distances = [["O","P",1],["P","Q",2],["Q","R",1.2]], dx = [["O","Q",2]] }"#,
-        "dx: O, Q",
+        "dx:O-Q",
         [Some(-3.0), Some(3.0)],
     ),
-    // A point on a line through the origin, 2 from another one that is 1 off the line.
+    // A chain of three bars from the origin to a point on a line through it.
     (
         r#"dimension = 2
-points = { O = [0, 0], U = [4, 0], P = [2, 0], Q = [1, 1] }
+points = { O = [0, 0], U = [4, 0], P = [2, 0], Q = [1, 1], S = [0.5, 0.9] }
 lines = { l = ["O", "U"] }
-constraints = { fixed = ["O", "U"], on = [["P", "l"]], distances = [["O","Q",1.5],["P","Q",1.4],["O","P",2]] }"#,
+constraints = { fixed = ["O", "U"], on = [["P", "l"]], distances = [["O","S",1],["S","Q",0.5],["P","Q",1.4],["O","P",2]] }"#,
         "O-P",
         [None, Some(2.9)],
     ),

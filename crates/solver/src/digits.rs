@@ -209,7 +209,8 @@ pub fn complex_to_digits(
             let behind = digits as i32 - places(&size);
             let is_known = radius <= &half * ten.pow(-behind.max(0));
             let sign = if im.is_negative() { '-' } else { '+' };
-            (is_known && !(size.is_zero() && !radius.is_zero())).then(|| match is_real {
+            let has_size = radius.is_zero() || !size.is_zero();
+            (is_known && has_size).then(|| match is_real {
                 true => written(&re, behind),
                 false => format!(
                     "{} {sign} {}i",

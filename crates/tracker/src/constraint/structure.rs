@@ -195,13 +195,16 @@ pub fn check_structure(problem: &Problem) -> Result<(), (Blame, String)> {
     let mut place = None;
     if let Some(circuit) = &found.circuit {
         let names = system.names(circuit.iter().copied());
+        let distances = problem.distances.len();
         let in_part = |equation: &usize| !system.is_whole(*equation);
         let whole = system.names(circuit.iter().copied().filter(|e| !in_part(e)));
         let remove = match whole.as_slice() {
             [] => String::new(),
             whole if whole.len() == names.len() => ", remove one of them".to_owned(),
-            // Of equations in part only it is not certain that all of these are needed for what depends on what.
-            _ if gives_lengths => String::new(),
+            // At figures of other lengths these may say something new.
+            _ if gives_lengths && circuit.iter().all(|e| in_part(e) || *e < distances) => {
+                String::new()
+            }
             [one] => format!(", remove {one}"),
             whole => format!(", remove one of {}", list(whole, LISTED)),
         };

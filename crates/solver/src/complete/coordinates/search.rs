@@ -77,7 +77,7 @@ pub const COARSE: f64 = 1e-3;
 /// How many that are.
 pub const MANY: usize = 300;
 /// Where that many are undecided a piece is given up in which a curve of figures was seen.
-pub const FEW: usize = 100;
+pub const FEW: usize = 16;
 /// Where that many are undecided a piece is given up.
 pub const TOO_MANY: usize = 5000;
 /// Places from which a curve of zeros is looked for, and how far they are from 0 where they may be.

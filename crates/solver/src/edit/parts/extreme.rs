@@ -202,8 +202,9 @@ fn when(right: &[Real], value: Interval) -> Option<Interval> {
         let middle = point(t.mid());
         let next = t.intersection(middle - (value_at(&at, middle) - value) / slope);
         // As long as it gets narrower by a part that counts.
-        if !(next.wid() < 0.9 * t.wid()) {
-            return Some(next);
+        let is_narrower = next.wid() < 0.9 * t.wid();
+        if !is_narrower {
+            return (!next.is_empty()).then_some(next);
         }
         t = next;
     }
