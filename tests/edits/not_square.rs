@@ -39,7 +39,7 @@ distances = [["b", "c", 5], ["a", "c", 6], ["a", "b", {length}]]
 }
 
 /// Figures that can move, a dimension, and the least and greatest values that it has in any of them, by hand.
-const LOOSE: [(&str, &str, [Option<f64>; 2]); 5] = [
+const LOOSE: [(&str, &str, [Option<f64>; 2]); 6] = [
     // A chain: the others laid end to end, or the longest less the others; nothing is at a place but A.
     (
         r#"dimension = 2
@@ -80,6 +80,14 @@ lines = { l = ["O", "U"] }
 constraints = { fixed = ["O", "U"], on = [["P", "l"]], distances = [["O","S",1],["S","Q",0.5],["P","Q",1.4],["O","P",2]] }"#,
         "O-P",
         [None, Some(2.9)],
+    ),
+    // The end of an arm of 1.4 and 1.1 around X, 4 from O: the sine of the angle at O is 2.5/4 at most.
+    (
+        r#"dimension = 2
+points = { O = [0, 0], X = [4, 0], P = [3, 1], Q = [2, 1.5] }
+constraints = { fixed = ["O", "X"], distances = [["X","P",1.4],["P","Q",1.1]], angles = [["X","O","Q",36]] }"#,
+        "angles:X-O-Q",
+        [None, Some(38.682_187_453_489_44)],
     ),
 ];
 

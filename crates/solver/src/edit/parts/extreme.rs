@@ -120,7 +120,8 @@ impl Parts {
             return None;
         }
         // What an equation of its own says is a number, and leads no further.
-        let alone = used.iter().map(|&row| &system.rows[row].unknowns);
+        let alone = used.iter().filter(|&&row| row != driven);
+        let alone = alone.map(|&row| &system.rows[row].unknowns);
         let numbers: HashSet<usize> = alone.filter(|u| u.len() == 1).map(|u| u[0]).collect();
         let mut unknowns: HashSet<usize> = system.rows[driven].unknowns.iter().copied().collect();
         loop {
