@@ -100,8 +100,9 @@ pub(super) struct LeftOut {
     /// How far constraints left out of the proof may be missed
     ///
     /// Where there are more constraints than unknowns, those that are left out count as met where the figure misses
-    /// them by no more than this, in the unit of their numbers [default: half a unit of the last digit that the file
-    /// gives the number]
+    /// them by no more than this length; of angles, ratios and others, too, which are missed by about as far as points
+    /// would have to move [default: of lengths half a unit of the last digit that the file gives, else 1e-7 of the
+    /// mean length]
     #[arg(long, value_name = "X", value_parser = super::all::seconds, hide_short_help = true)]
     pub redundant_tolerance: Option<f64>,
     /// Keep the edges of closed outlines from touching

@@ -81,7 +81,7 @@ pub const FEW: usize = 16;
 /// Where that many are undecided a piece is given up.
 pub const TOO_MANY: usize = 5000;
 /// Places from which a curve of zeros is looked for, and how far they are from 0 where they may be.
-const PROBES: usize = 32;
+const PROBES: usize = 8;
 const NEAR: f64 = 4.0;
 /// A length below this seems to be none.
 const NONE: f64 = 1e-6;
