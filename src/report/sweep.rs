@@ -82,6 +82,7 @@ pub fn ranges_to_table(problem: &Problem, ranges: &[Range], moved: Moved) -> Str
     ) {
         (true, _) => format!("Every value is a limit{scope}, proved, and"),
         (false, true) => format!("Every other value is a limit{scope}, proved. Each value"),
+        (false, false) if is_held_at_ends => format!("The others are proved{scope}. Each value"),
         (false, false) => "Each value".to_owned(),
     };
     let others = ranges.iter().filter(|_| !is_one);

@@ -28,7 +28,8 @@ pub(super) fn page(reader: &Reader, all: &All) -> Result<Page, ShowError> {
              that there is no solution. Figures that the constraints do not tell apart are listed once."
         }
         "complex" => {
-            "All complex solutions were found, as many as the product of the degrees allows: these are the real ones among them."
+            "All complex solutions were found, as many as the product of the degrees allows: these are the real ones among them, in \
+             the ranges of unknowns, where there are any."
         }
         _ => {
             "All figures with these dimensions were searched, wherever the sketch is: the parameters of a \

@@ -180,8 +180,13 @@ impl Session {
             ),
             Ending::Stopped(reason) => End::Unknown(value, reason.text),
         };
+        // Where something else stands still, or an equation was added, it would be that of fewer figures.
+        let is_all = self.problem().kept.what.is_empty()
+            && account.added.is_empty()
+            && account.drawing.is_none()
+            && held_though_computed(self.problem(), &[index]).is_empty();
         let extreme = match end {
-            End::Limit(..) if !account.held.is_empty() => self.extreme(&setting, &points),
+            End::Limit(..) if is_all && !account.held.is_empty() => self.extreme(&setting, &points),
             _ => None,
         };
         // What was led to is a figure: those that go less far are extreme among others.

@@ -53,6 +53,9 @@ fn deviations(texts: &[&str]) -> Option<[Decimal; 2]> {
 fn of_text(text: &str) -> Option<Decimal> {
     let (number, by) = parts(text)?;
     let by: Vec<&str> = by.split_whitespace().collect();
+    // Both ways as far, or down and up.
+    let is_both = ["±", "+/-", "+-"].iter().any(|sign| text.contains(sign));
+    (by.len() == if is_both { 1 } else { 2 }).then_some(())?;
     let number: Decimal = number.parse().ok()?;
     let by = deviations(&by)?;
     number.within(&by).ok()?;
@@ -64,8 +67,11 @@ fn of_ends([low, high]: [&Decimal; 2]) -> Option<Decimal> {
     let half = |x: Rational| expression::decimal(&(x / Rational::from_integer(2.into()))).ok();
     let middle = half(low.value() + high.value())?;
     let by = half(high.value() - low.value())?;
-    (low.value() <= high.value()).then_some(())?;
-    Some(middle.with_tolerance(Some(&[by.negative(), by])))
+    let by = [by.negative(), by];
+    // Of very many digits the middle is rounded.
+    let ends = middle.within(&by).ok()?;
+    let is_exact = ends[0].value() == low.value() && ends[1].value() == high.value();
+    (is_exact && low.value() <= high.value()).then(|| middle.with_tolerance(Some(&by)))
 }
 
 /// The number with limits that stands in a file.

@@ -120,7 +120,12 @@ impl Parts {
             return None;
         }
         // What an equation of its own says is a number, and leads no further.
-        let alone = used.iter().filter(|&&row| row != driven);
+        let is_linear = |row: usize| {
+            let mut products = system.rows[row].products.iter();
+            let one = equations::Form::One;
+            products.all(|p| p.left == one || p.right == one)
+        };
+        let alone = used.iter().filter(|&&row| row != driven && is_linear(row));
         let alone = alone.map(|&row| &system.rows[row].unknowns);
         let numbers: HashSet<usize> = alone.filter(|u| u.len() == 1).map(|u| u[0]).collect();
         let mut unknowns: HashSet<usize> = system.rows[driven].unknowns.iter().copied().collect();
