@@ -112,8 +112,8 @@ pub fn ranges_to_table(problem: &Problem, ranges: &[Range], moved: Moved) -> Str
             match (end, extreme) {
                 (End::Limit(value, _), Some(extreme)) => {
                     out += &format!(
-                        "{name} {verb} {}*: the way there was followed, with coordinates held, to {}, and no point is further than {} from \
-                         where it is then.\n",
+                        "{name} {verb} {}*: the way there was followed, with coordinates held, to {}, where no point is further than {} from \
+                         where it is in that figure.\n",
                         certain_digits(extreme.value),
                         certain_digits(*value),
                         rounded_up(extreme.apart)

@@ -100,11 +100,12 @@ pub(crate) fn straight(problem: &Problem) -> Result<(Problem, Lowered), String> 
 /// The same, where equations are to be told apart: the numbers of distances are in no other equation, so that each can be left out by itself.
 pub(crate) fn straight_apart(problem: &Problem) -> Result<(Problem, Lowered), String> {
     let (problem, lowered) = straight(problem)?;
-    let apart = match lowered.gives_lengths {
-        true => try_lower_all_apart(&problem).map_err(|fault| in_words(&problem, fault))?,
-        false => lowered,
-    };
-    Ok((problem, apart))
+    let apart = lowered.gives_lengths.then(|| apart(&problem));
+    Ok((problem, apart.transpose()?.unwrap_or(lowered)))
+}
+
+fn apart(problem: &Problem) -> Result<Lowered, String> {
+    try_lower_all_apart(problem).map_err(|fault| in_words(problem, fault))
 }
 
 /// What is at fault with a problem's equations, in words.
@@ -156,14 +157,19 @@ impl Cut {
 
     /// The same; a singular drawing is moved off that place in one of several ways, two and two in opposite directions.
     pub fn drawn(problem: &Problem, way: u64) -> Result<Self, String> {
-        let whole = straight(problem)?;
-        let (gives_lengths, cut) = (whole.1.gives_lengths, Self::of(whole, way)?);
+        let (problem, lowered) = straight(problem)?;
+        let gives_lengths = lowered.gives_lengths;
+        let cut = Self::of((problem, lowered), way)?;
         match gives_lengths && !cut.redundant.is_empty() {
-            true => Self::of(straight_apart(problem)?, way),
+            true => {
+                let lowered = apart(&cut.problem)?;
+                Self::of((cut.problem, lowered), way)
+            }
             false => Ok(cut),
         }
     }
 
+    /// The same of a problem without a bend and its equations.
     fn of((problem, lowered): (Problem, Lowered), way: u64) -> Result<Self, String> {
         let of = |&owner| Whose::of(&problem, owner);
         let owners: Vec<Whose> = lowered.owners.iter().map(of).collect();

@@ -6,12 +6,11 @@
 //! its dimensions from there, by proof as from any other. The constraints stay what they are.
 
 use super::tried::Tried;
-use super::{Choice, FINE, Row, System};
+use super::{Choice, FINE, System};
 use crate::constraint::{Equation, Role};
-use crate::equations::{Form, left_side, slopes};
+use crate::equations::Form;
 use crate::interval::{Real, point};
 use crate::linalg::{Linear, decomposed, linearised, nearest, nearest_zero, scaled, shortest};
-use crate::map::Map;
 use crate::order::each_once;
 use crate::random::Random;
 use crate::rational::Rational;
@@ -187,7 +186,7 @@ impl<'a> Floats<'a> {
 
     /// A place near this one that meets rows of which some may depend on others wherever they are met. There Newton's method leaps, so that damped steps lead to
     /// where they are nearly met; and from there those rows alone do that say something new, as all of them get no nearer than about 1e-7.
-    fn figure(&self, rows: &[usize], at: Vec<f64>) -> Option<Vec<f64>> {
+    pub(super) fn figure(&self, rows: &[usize], at: Vec<f64>) -> Option<Vec<f64>> {
         let near = nearest(DVector::from_vec(at), [1e-13, 1.0], &|at| {
             self.linearise(rows, at)
         });
@@ -195,6 +194,28 @@ impl<'a> Floats<'a> {
         let own = self.independent(rows, &near, CLEAR).0;
         let near = self.meet(&own, near)?;
         (self.missed(rows, &near) < MET).then_some(near)
+    }
+
+    /// The Jacobian of some rows by some unknowns alone, as [`Floats::linearise`] has them.
+    pub(super) fn linearise_in(&self, rows: &[usize], unknowns: &[usize], at: &[f64]) -> Linear {
+        let (jacobian, off) = self.linearise(rows, at);
+        (jacobian.select_columns(unknowns), off)
+    }
+
+    /// A place that meets some rows, as [`Floats::meet`] has it, and differs from this one in some unknowns alone.
+    pub fn meet_in(&self, rows: &[usize], unknowns: &[usize], at: Vec<f64>) -> Option<Vec<f64>> {
+        let whole = |own: &[f64]| {
+            let mut whole = at.clone();
+            unknowns.iter().zip(own).for_each(|(&u, &x)| whole[u] = x);
+            whole
+        };
+        let own = unknowns.iter().map(|&u| at[u]).collect();
+        let linearise = |own: &[f64]| self.linearise_in(rows, unknowns, &whole(own));
+        let own = match rows.is_empty() {
+            true => Some(own),
+            false => nearest_zero(own, 1e-10, &linearise),
+        };
+        own.map(|own| whole(&own)).filter(|at| self.is_proper(at))
     }
 
     /// The same of rows that are linearised so.
@@ -278,29 +299,6 @@ pub(crate) fn look(
         rows,
         seen,
         off: (!is_met && !as_singular).then_some(off),
-    }
-}
-
-impl Row {
-    /// The largest derivative of the left-hand side at a place, and the length of its gradient.
-    pub(crate) fn steepness(&self, at: &[f64]) -> (f64, f64) {
-        let mut slopes = Vec::new();
-        self.evaluate(at, |u, slope| slopes.push((u, slope)));
-        let slopes = Map::sums(slopes);
-        let slopes = slopes.iter().map(|(_, slope)| slope);
-        let steepest = slopes.clone().fold(0.0, |max: f64, s| max.max(s.abs()));
-        let squares: f64 = slopes.map(|slope| slope * slope).sum();
-        let least = f64::MIN_POSITIVE;
-        (steepest.max(least), squares.sqrt().max(least))
-    }
-
-    /// The value of the left-hand side at a place, and its derivatives, one by one.
-    pub(crate) fn evaluate(&self, at: &[f64], mut slope: impl FnMut(usize, f64)) -> f64 {
-        let value = |entry: Option<usize>| entry.map_or(0.0, |u| at[u]);
-        slopes(&self.products, value, |entry, by| {
-            entry.into_iter().for_each(|u| slope(u, by));
-        });
-        left_side(&self.products, value)
     }
 }
 

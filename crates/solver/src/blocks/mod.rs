@@ -33,6 +33,7 @@ mod near;
 mod number;
 mod path;
 mod pinned;
+mod row;
 mod singular;
 mod surplus;
 mod tried;

@@ -62,7 +62,7 @@ impl Near {
         for way in 0..=ways {
             // First where it is drawn.
             let all = if way == 0 { 0 } else { drawn.len() };
-            let Some(at) = floats.meet(order, moved(&drawn, 0..all, way)) else {
+            let Some(at) = floats.figure(order, moved(&drawn, 0..all, way)) else {
                 continue;
             };
             let rank = floats.independent(order, &at, CLEAR).0.len();

@@ -6,7 +6,7 @@
 //! those that are not met there.
 
 use super::drawn::{Floats, MET, MOVED};
-use crate::linalg::{decomposed, nearest_zero, shortest};
+use crate::linalg::{decomposed, shortest};
 use crate::order::each_once;
 use crate::random::Random;
 use nalgebra::DVector;
@@ -31,26 +31,16 @@ impl Floats<'_> {
     pub(super) fn tried(&self, row: usize, set: &[usize], at: &[f64]) -> Tried {
         let rows = set.iter().chain([&row]);
         let unknowns = each_once(rows.flat_map(|&r| self.unknowns_of(r).iter().copied()));
-        let whole = |own: &[f64]| {
-            let mut whole = at.to_vec();
-            unknowns.iter().zip(own).for_each(|(&u, &x)| whole[u] = x);
-            whole
-        };
         // Of the unknowns that matter alone.
-        let linearise = |own: &[f64]| {
-            let (jacobian, off) = self.linearise(set, &whole(own));
-            (jacobian.select_columns(&unknowns), off)
-        };
-        let here: Vec<f64> = unknowns.iter().map(|&u| at[u]).collect();
         let decomposed = (!set.is_empty()).then(|| {
-            let jacobian = linearise(&here).0;
+            let jacobian = self.linearise_in(set, &unknowns, at).0;
             (jacobian.clone(), decomposed(jacobian, [true, true]))
         });
         let (value, most) = (self.value(row, at), MET * self.steepness(row, at).max(1.0));
         let mut is_seen = false;
         for seed in 0..TRIES {
             let mut random = Random::new(seed + 1);
-            let any = DVector::from_fn(here.len(), |_, _| random.symmetric());
+            let any = DVector::from_fn(unknowns.len(), |_, _| random.symmetric());
             let held = decomposed
                 .as_ref()
                 .and_then(|(jacobian, svd)| shortest(svd, &(jacobian * &any), 1e-9));
@@ -59,13 +49,10 @@ impl Floats<'_> {
                 return Tried::Holds;
             }
             let step = MOVED * (seed + 1) as f64 / free.amax();
-            let beside = here.iter().zip(free.iter()).map(|(x, v)| x + step * v);
-            let beside: Vec<f64> = beside.collect();
-            let there = match set.is_empty() {
-                true => Some(beside),
-                false => nearest_zero(beside, 1e-10, &linearise),
-            };
-            let Some(there) = there.map(|own| whole(&own)).filter(|at| self.is_proper(at)) else {
+            let mut beside = at.to_vec();
+            let moves = unknowns.iter().zip(free.iter());
+            moves.for_each(|(&u, v)| beside[u] += step * v);
+            let Some(there) = self.meet_in(set, &unknowns, beside) else {
                 continue;
             };
             if (self.value(row, &there) - value).abs() > most {

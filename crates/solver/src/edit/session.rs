@@ -255,7 +255,7 @@ impl Session {
     /// A figure near the end of a way on which one dimension was led as far as it goes with coordinates held, at which it goes furthest with
     /// nothing held, if one is proved.
     pub(super) fn extreme(&self, setting: &Setting, end: &[[Interval; 3]]) -> Option<Extreme> {
-        self.way.extreme(setting, end)
+        self.way.parts()?.extreme(setting, end)
     }
 
     /// What [`Session::edit`] would come to; the figure stays what it is.

@@ -3,7 +3,7 @@
 use super::drag::Drag;
 use super::ending::{Edited, Ending, Keep, Limit, Orientations};
 use super::open::Moved;
-use super::parts::{Extreme, Parts};
+use super::parts::Parts;
 use super::segments::{Reversed, apart_in_words, first_lost, in_narrower_tubes, stop};
 use super::setting::Setting;
 use crate::blocks::Account;
@@ -75,11 +75,6 @@ pub(super) trait Way: std::fmt::Debug + Send {
     /// See [`super::Session::drag`].
     fn drag(&mut self, _: &[Drag], _: &mut Control) -> Edited {
         panic!("points cannot be dragged in a figure that has no place")
-    }
-
-    /// A figure near the end of a way to a limit with nothing held, if one is proved: see [`Extreme`].
-    fn extreme(&self, _: &Setting, _: &[[Interval; 3]]) -> Option<Extreme> {
-        None
     }
 
     /// The sketch that is followed part by part, if it is.

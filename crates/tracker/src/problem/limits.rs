@@ -11,11 +11,14 @@ use crate::rational::Rational;
 const WANTED: &str =
     "limits, [4.2, 4.3] with the lower one first, \"4.25 ± 0.05\" or \"4.2 +0.1 -0.05\"";
 
+/// What stands before a number by which another one may be less and more.
+const BOTH: [&str; 3] = ["±", "+/-", "+-"];
+
 /// A text that is meant as a number with limits: what it is of, and how far it may be from that.
 fn parts(text: &str) -> Option<(&str, &str)> {
     let is_number = |text: &str| text.parse::<Decimal>().is_ok();
-    let sign = ["±", "+/-", "+-"].iter();
-    let split = sign.filter_map(|sign| Some((text.split_once(sign)?, *sign)));
+    let split = BOTH.iter();
+    let split = split.filter_map(|sign| Some((text.split_once(sign)?, *sign)));
     for ((number, by), sign) in split {
         // With names it may be an expression.
         if sign != "+-" || is_number(number) {
@@ -54,7 +57,7 @@ fn of_text(text: &str) -> Option<Decimal> {
     let (number, by) = parts(text)?;
     let by: Vec<&str> = by.split_whitespace().collect();
     // Both ways as far, or down and up.
-    let is_both = ["±", "+/-", "+-"].iter().any(|sign| text.contains(sign));
+    let is_both = BOTH.iter().any(|sign| text.contains(sign));
     (by.len() == if is_both { 1 } else { 2 }).then_some(())?;
     let number: Decimal = number.parse().ok()?;
     let by = deviations(&by)?;

@@ -15,15 +15,15 @@
 use super::exact::value_at;
 use super::left_out::at_rest_all;
 use super::{Parts, Used, moves};
-use crate::blocks::{Row, System};
+use crate::blocks::{Floats, System};
 use crate::constraint::{Entry, Equation, Form, Product, Role, Unknown, try_lower_all, value};
 use crate::edit::lowered;
 use crate::edit::open::furthest;
 use crate::edit::setting::Setting;
 use crate::edit::way::Way as _;
-use crate::equations::{self, Halved, left_side, slopes};
+use crate::equations::{self, Halved, slopes};
 use crate::interval::{Interval, Real, hull, point};
-use crate::linalg::{Span, decomposed, is_positive_definite, linearised, nearest_zero, shortest};
+use crate::linalg::{Span, decomposed, is_positive_definite, linearised, shortest};
 use crate::order::each_once;
 use crate::rational::Rational;
 use crate::system::{Homotopy, Part};
@@ -65,13 +65,12 @@ enum Motion {
 /// The equations that a dimension's limit is about.
 struct Near<'p> {
     system: &'p System,
+    floats: Floats<'p>,
     dimension: usize,
     /// The row of the dimension.
     driven: usize,
     /// The others.
     rows: Vec<usize>,
-    /// What their left-hand sides are.
-    targets: Vec<f64>,
     /// The unknowns of all, ascending.
     unknowns: Vec<usize>,
     /// 1 where the row's left-hand side is to be the greatest, −1 where the least.
@@ -80,12 +79,17 @@ struct Near<'p> {
 
 impl Parts {
     /// A figure near the end of a way that `setting` led the dimension, at which it goes furthest of all figures near, if there is one and that is proved.
-    pub(super) fn extreme(&self, setting: &Setting, end: &[[Interval; 3]]) -> Option<Extreme> {
+    pub(in crate::edit) fn extreme(
+        &self,
+        setting: &Setting,
+        end: &[[Interval; 3]],
+    ) -> Option<Extreme> {
         let problem = Setting::applied(slice::from_ref(setting), &self.cut.problem);
         let record = Some(&self.cut.record);
-        let rights = lowered(&problem, |problem| try_lower_all(problem, record)).ok()?;
-        let rights = rights.tail.rights();
-        let near = self.near(&rights)?;
+        let lowered = lowered(&problem, |problem| try_lower_all(problem, record)).ok()?;
+        let rights = lowered.tail.rights();
+        let floats = Floats::new(&self.cut.system, &lowered.tail.equations, self.cut.unit);
+        let near = self.near(&rights, floats)?;
         let x = near.climb(self.start(end))?;
         let figure = near.prove(self, &rights, &x)?;
         if self.vanished(&figure).is_some() || !self.is_proper(&figure, &near.unknowns) {
@@ -105,7 +109,7 @@ impl Parts {
     }
 
     /// The equations that the dimension that moves stands in one of, with all that they depend on.
-    fn near(&self, rights: &[Vec<Real>]) -> Option<Near<'_>> {
+    fn near<'p>(&'p self, rights: &[Vec<Real>], floats: Floats<'p>) -> Option<Near<'p>> {
         let system = &self.cut.system;
         let used = self.cut.used.iter().filter_map(|used| match used {
             Used::Row(row) => Some(*row),
@@ -154,15 +158,10 @@ impl Parts {
         }
         let rows = used.into_iter().filter(|row| *row != driven && is_in(row));
         let rows: Vec<usize> = rows.collect();
-        let target = |&row: &usize| {
-            let all = right(row).iter();
-            let sum = all.fold(Real::zero(), |sum, c| &sum + c).enclose().mid();
-            sum / self.scale(system.rows[row].index)
-        };
         let grows = right(driven)[1].enclose().mid() > 0.0;
         Some(Near {
-            targets: rows.iter().map(target).collect(),
             system,
+            floats,
             dimension: self.cut.problem.dimension,
             driven,
             rows,
@@ -216,51 +215,6 @@ fn when(right: &[Real], value: Interval) -> Option<Interval> {
     }
 }
 
-impl Row {
-    /// Its left-hand side where unknowns have these values.
-    fn over<T: Halved>(&self, at: impl Fn(usize) -> T) -> T {
-        left_side(&self.products, |entry: Option<usize>| {
-            entry.map_or(T::whole(0), &at)
-        })
-    }
-
-    /// The derivatives of its left-hand side, those of one unknown to be added.
-    fn derivatives<T: Halved>(&self, at: impl Fn(usize) -> T, mut tell: impl FnMut(usize, T)) {
-        let value = |entry: Option<usize>| entry.map_or(T::whole(0), &at);
-        slopes(&self.products, value, |entry, slope| {
-            entry.into_iter().for_each(|u| tell(u, slope.clone()));
-        });
-    }
-
-    /// The second derivatives of its left-hand side, as many halves of 1, those of two unknowns to be added.
-    fn bends(&self, mut tell: impl FnMut([usize; 2], i32)) {
-        for p in &self.products {
-            for (a, f) in p.left.entries() {
-                for (b, g) in p.right.entries() {
-                    if let (Some(a), Some(b)) = (a, b) {
-                        tell([a, b], p.factor * f * g);
-                        tell([b, a], p.factor * f * g);
-                    }
-                }
-            }
-        }
-    }
-
-    /// The products of its derivative by an unknown, times `by`.
-    fn derived(&self, u: usize, by: Form, entry: impl Fn(Option<usize>) -> Entry) -> Vec<Product> {
-        let mut out = Vec::new();
-        for p in &self.products {
-            for (this, other) in [(p.left, p.right), (p.right, p.left)] {
-                let own = this.entries().filter(|(entry, _)| *entry == Some(u));
-                for (_, sign) in own {
-                    out.push(Product::new(p.factor * sign, by, other.map(&entry)));
-                }
-            }
-        }
-        out
-    }
-}
-
 /// Σ of what rows tell of second derivatives, each times its factor.
 fn bent<T: Halved>(near: &Near, unknowns: &[usize], factors: &[(usize, T)]) -> Vec<T> {
     let n = unknowns.len();
@@ -280,36 +234,21 @@ fn numbered(unknowns: &[usize]) -> HashMap<usize, usize> {
 }
 
 impl Near<'_> {
-    /// The Jacobian of rows by some unknowns, and what these rows are off.
+    /// The Jacobian of rows by some unknowns.
     fn jacobian(&self, rows: &[usize], unknowns: &[usize], at: &[f64]) -> DMatrix<f64> {
         let local = numbered(unknowns);
         let each = |r: usize, tell: &mut dyn FnMut(usize, f64)| {
-            self.system.rows[rows[r]].derivatives(|u| at[u], |u, slope| tell(local[&u], slope));
-            0.0
+            self.system.rows[rows[r]].evaluate(at, |u, slope| tell(local[&u], slope))
         };
         linearised((rows.len(), unknowns.len()), &each).0
     }
 
-    /// A place that meets the rows, by Newton's method with least changes.
+    /// A place near this one that meets the rows.
     fn meet(&self, at: Vec<f64>) -> Option<Vec<f64>> {
-        let local = numbered(&self.unknowns);
-        let put = |x: &[f64]| {
-            let mut all = at.clone();
-            self.unknowns.iter().zip(x).for_each(|(&u, &x)| all[u] = x);
-            all
-        };
-        let linearise = |x: &[f64]| {
-            let all = put(x);
-            linearised((self.rows.len(), x.len()), &|r, tell| {
-                let row = &self.system.rows[self.rows[r]];
-                row.derivatives(|u| all[u], |u, slope| tell(local[&u], slope));
-                row.over(|u| all[u]) - self.targets[r]
-            })
-        };
-        let x = self.unknowns.iter().map(|&u| at[u]).collect();
-        nearest_zero(x, 1e-10, &linearise).map(|x| put(&x))
+        self.floats.meet_in(&self.rows, &self.unknowns, at)
     }
 
+    /// What is to be the greatest.
     fn height(&self, at: &[f64]) -> f64 {
         self.sense * self.system.rows[self.driven].over(|u| at[u])
     }
@@ -508,13 +447,12 @@ impl Near<'_> {
             .flat_map(|&row| self.system.rows[row].unknowns.iter());
         let unknowns = each_once(of.copied());
         // Of the motions those that are different ones at this figure, and as many unknowns that they move.
-        let motions = self.motions(&with_driven, &unknowns);
+        let mut motions = self.motions(&with_driven, &unknowns);
         let speeds = |motion: Motion| -> Vec<f64> {
             let each = unknowns.iter().map(|&u| self.speed(motion, u, |v| at[v]));
             each.collect()
         };
         let mut span = Span::default();
-        let mut motions = motions;
         motions.retain(|&motion| span.take([speeds(motion)]));
         let columns = (0..unknowns.len()).map(|k| {
             let each = motions.iter().map(|&motion| speeds(motion)[k]);

@@ -1,7 +1,7 @@
 //! Constraints that are left out because they follow from others at the figure: by proof, or as far as floats tell.
 
 use super::{Parts, Used, moves};
-use crate::blocks::{Given, Row, Ruler, Verdict, combination, rounded_down};
+use crate::blocks::{Given, Ruler, Verdict, combination, rounded_down};
 use crate::interval::{Interval, Real, point};
 use crate::system::Right;
 use crate::track::arc::Figure;
@@ -100,14 +100,9 @@ impl Parts {
         rights: &[Vec<Real>],
         time: Option<Interval>,
     ) -> (Interval, Interval) {
-        let at = |entry: Option<usize>| entry.map_or(point(0.0), |u| figure.enclosure(u));
-        let Row {
-            index, products, ..
-        } = &self.cut.system.rows[row];
-        let left = products.iter().fold(point(0.0), |sum, p| {
-            sum + point(0.5 * f64::from(p.factor)) * p.value(at)
-        });
-        let right = Right::polynomial(&rights[*index], self.scale(*index));
+        let row = &self.cut.system.rows[row];
+        let left = row.over(|u| figure.enclosure(u));
+        let right = Right::polynomial(&rights[row.index], self.scale(row.index));
         let right = match time {
             Some(t) => right.enclose(t),
             None => right.at_target(),

@@ -538,10 +538,6 @@ impl Way for Parts {
         self.drag(drags, control)
     }
 
-    fn extreme(&self, setting: &Setting, end: &[[Interval; 3]]) -> Option<Extreme> {
-        self.extreme(setting, end)
-    }
-
     fn parts(&self) -> Option<&Parts> {
         Some(self)
     }
